@@ -3,6 +3,8 @@
 
 #include "rhombicScan.h"
 
+#include "itkImageRegion.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -57,6 +59,17 @@ struct ScanReadOptions
   std::function<void(double)> progress;
 };
 
+/** The voxels of a file in the type in which it stores them, or FLOAT where it scales them. */
+struct NativeVoxels
+{
+  itk::IOComponentEnum type = itk::IOComponentEnum::UNKNOWNCOMPONENTTYPE;
+  bool areReadInPart = false; ///< whether a region takes only its own share of the file; otherwise it takes all of it
+
+  /** Reads the voxels of a region of the image, x fastest, into \a buffer. Values that are not finite are replaced by
+   * the volume's lowest other value. Throws Failure as ReadVoxels() does. */
+  std::function<void(const itk::ImageRegion<3> & region, void * buffer)> read;
+};
+
 /** A scan of which the headers were read. */
 struct UnreadScan
 {
@@ -65,6 +78,10 @@ struct UnreadScan
   Scan scan;
 
   std::function<void(Scan & scan)> readVoxels; ///< completes a copy of \a scan, any number of times
+
+  bool isTypeCertain = true; ///< whether the headers tell that the voxels fit into the pixel type of \a scan
+
+  std::optional<NativeVoxels> native = std::nullopt; ///< of a NIfTI, NRRD or MetaImage file of one volume
 };
 
 /** Opens a scan or label map: a folder of DICOM slices, searched with its subfolders; a DICOM file that holds a volume

@@ -26,7 +26,7 @@ IsFolder(const fs::path & path)
   }
   if (!fs::is_directory(status) && !fs::is_regular_file(status))
   {
-    RefuseVolume(path, "it is a device or pipe; give a file or folder");
+    RefuseOther(path, "it is a device or pipe; give a file or folder");
   }
   return fs::is_directory(status);
 }
@@ -94,6 +94,12 @@ OpenScan(const fs::path & path, const ScanReadOptions & options)
 {
   UnreadScan file = ReadOrFail(path, [&path, &options] { return Open(path, options); });
   file.readVoxels = [path, readVoxels = file.readVoxels](Scan & scan) { ReadOrFail(path, [&] { readVoxels(scan); }); };
+  if (file.native)
+  {
+    file.native->read = [path, read = file.native->read](const itk::ImageRegion<3> & region, void * buffer) {
+      ReadOrFail(path, [&] { read(region, buffer); });
+    };
+  }
   return file;
 }
 

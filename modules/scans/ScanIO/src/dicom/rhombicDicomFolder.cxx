@@ -228,18 +228,22 @@ OpenStack(const std::vector<DicomSlice> & all,
   scan.notes.insert(scan.notes.end(), stack.notes.begin(), stack.notes.end());
   NoteCompression(slices, scan);
 
-  return { scan, [=](Scan & read) {
-            DicomPixels pixels = ReadDicomPixels(slices, stack.geometry, options);
-            if (!pixels.failures.empty())
-            {
-              pixels.failures.insert(failures.begin(), failures.end());
-              read = ReadVoxels(OpenStack(all, pixels.failures, options, found));
-              return;
-            }
-            read.image = pixels.image;
-            read.paddingValue = pixels.paddingValue;
-            read.numberOfPaddingSamples = pixels.numberOfPaddingSamples;
-          } };
+  UnreadScan file;
+  file.scan = scan;
+  file.isTypeCertain = HoldsAllValues(scan.image, slices);
+  file.readVoxels = [=](Scan & read) {
+    DicomPixels pixels = ReadDicomPixels(slices, stack.geometry, options);
+    if (!pixels.failures.empty())
+    {
+      pixels.failures.insert(failures.begin(), failures.end());
+      read = ReadVoxels(OpenStack(all, pixels.failures, options, found));
+      return;
+    }
+    read.image = pixels.image;
+    read.paddingValue = pixels.paddingValue;
+    read.numberOfPaddingSamples = pixels.numberOfPaddingSamples;
+  };
+  return file;
 }
 
 UnreadScan
@@ -291,17 +295,22 @@ std::vector<DicomSlice>
 ReadFile(const fs::path & path)
 {
   std::vector<DicomSlice> slices = ReadDicomSlices(path);
-  RefuseVolumeIf(
+  RefuseOtherIf(
     slices.empty(), path, "it is neither DICOM nor named like NIfTI, NRRD or MetaImage; check where it came from");
-  RefuseVolumeIf(
-    !slices.front().refusal.empty(), path, slices.front().refusal + "; give a folder of plain CT, MR or PET slices");
-  RefuseVolumeIf(!slices.front().file->pixelDamage.empty(),
-                 path,
-                 slices.front().file->pixelDamage + "; copy it again from its source");
-  FailIf(slices.size() == 1 && slices.front().kind == DicomSlice::Kind::Scan,
-         FailureKind::Geometry,
-         "Cannot read " + path.string() +
-           ": it is a single slice, which is no volume; give the folder of the whole series.");
+  const DicomSlice & first = slices.front();
+  const std::string & damage = first.file->pixelDamage;
+  if (!first.refusal.empty())
+  {
+    const auto refuse = first.kind == DicomSlice::Kind::Scan && damage.empty() ? RefuseOther : RefuseVolume;
+    refuse(path, first.refusal + "; give a folder of plain CT, MR or PET slices");
+  }
+  RefuseVolumeIf(!damage.empty(), path, damage + "; copy it again from its source");
+  if (slices.size() == 1 && first.kind == DicomSlice::Kind::Scan)
+  {
+    throw OtherImage(FailureKind::Geometry,
+                     "Cannot read " + path.string() +
+                       ": it is a single slice, which is no volume; give the folder of the whole series.");
+  }
   return slices;
 }
 

@@ -376,6 +376,22 @@ NewDicomImage(const std::vector<DicomSlice> & slices, const VolumeGeometry & geo
                                      : ScanImage(NewFrame<float>(geometry));
 }
 
+bool
+HoldsAllValues(const ScanImage & image, const std::vector<DicomSlice> & slices)
+{
+  using Limits = std::numeric_limits<std::int16_t>;
+  const auto fits = [](const DicomSlice & slice) {
+    const DicomPixelFormat & format = slice.file->format;
+    const double count = std::ldexp(1.0, static_cast<int>(format.bitsStored));
+    const double lowest = format.isSigned ? -count / 2 : 0.0;
+    const auto [low, high] =
+      std::minmax({ slice.slope * lowest + slice.intercept, slice.slope * (lowest + count - 1) + slice.intercept });
+    return low >= Limits::lowest() && high <= Limits::max();
+  };
+  return !std::holds_alternative<itk::Image<std::int16_t, 3>::Pointer>(image) ||
+         std::all_of(slices.begin(), slices.end(), fits);
+}
+
 DicomPixels
 ReadDicomPixels(const std::vector<DicomSlice> & slices,
                 const VolumeGeometry & geometry,

@@ -96,6 +96,10 @@ struct DicomPixels
 ScanImage
 NewDicomImage(const std::vector<DicomSlice> & slices, const VolumeGeometry & geometry);
 
+/** Whether the pixel type of NewDicomImage() holds all values that the headers allow. */
+bool
+HoldsAllValues(const ScanImage & image, const std::vector<DicomSlice> & slices);
+
 /** Reads slices in their order into one volume; their files must have no pixelDamage. Uncompressed pixels are read
  * here, the others by child processes, as many files at once as there are threads. Padding is replaced by the lowest
  * other value. It is kept when there is only one other value or padding is the next value below the others: then it is

@@ -58,9 +58,9 @@ TypeOf(const TextHeader & header, const fs::path & path)
     { "MET_ULONG_LONG", std::uint64_t() }, { "MET_FLOAT", float() },         { "MET_DOUBLE", double() },
   };
   const std::string channels = header.Get("ElementNumberOfChannels");
-  RefuseVolumeIf(!channels.empty() && channels != "1",
-                 path,
-                 "its voxels are " + channels + " numbers each, not single numbers; extract one component first");
+  RefuseOtherIf(!channels.empty() && channels != "1",
+                path,
+                "its voxels are " + channels + " numbers each, not single numbers; extract one component first");
   const auto found = types.find(header.Get("ElementType"));
   RefuseVolumeIf(found == types.end(),
                  path,
@@ -183,9 +183,9 @@ ReadMetaImageVolume(const fs::path & path)
   StoredVolume volume;
   volume.type = TypeOf(header, path);
   volume.scaling = ScalingOf(header, path);
-  RefuseVolumeIf(!header.Get("BinaryData").empty() && !IsTrue(header, "BinaryData"),
-                 path,
-                 "its voxels are text, which is not supported; write it with BinaryData = True");
+  RefuseOtherIf(!header.Get("BinaryData").empty() && !IsTrue(header, "BinaryData"),
+                path,
+                "its voxels are text, which is not supported; write it with BinaryData = True");
   volume.encoding = IsTrue(header, "CompressedData") ? "zlib" : "raw";
   volume.numberOfFrames = sizes.size() == 4 ? sizes[3] : 1;
   Place(header, sizes, path, volume);

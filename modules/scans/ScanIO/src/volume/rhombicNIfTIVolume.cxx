@@ -51,9 +51,9 @@ HeaderFile(const fs::path & path)
     return path;
   }
   const fs::path header = Partner(path, { ".hdr", ".HDR", ".hdr.gz", ".HDR.GZ" });
-  RefuseVolumeIf(header.empty(),
-                 path,
-                 "its header should be in an .hdr file beside it, which is missing; put the two into one folder");
+  RefuseOtherIf(header.empty(),
+                path,
+                "its header should be in an .hdr file beside it, which is missing; put the two into one folder");
   return header;
 }
 
@@ -87,10 +87,10 @@ std::array<std::uintmax_t, 4>
 SizesOf(const NIfTIHeader & header, const fs::path & path)
 {
   const std::int64_t count = header.dimensions[0];
-  RefuseVolumeIf(count < 3 || count > 7,
-                 path,
-                 "it has " + std::to_string(count) + (count == 1 ? " dimension" : " dimensions") +
-                   "; a volume has three");
+  const std::string isNoVolume =
+    "it has " + std::to_string(count) + (count == 1 ? " dimension" : " dimensions") + "; a volume has three";
+  RefuseOtherIf(count == 1 || count == 2, path, isNoVolume);
+  RefuseVolumeIf(count < 3 || count > 7, path, isNoVolume);
   std::vector<std::uintmax_t> frames;
   for (std::size_t i = 1; i <= static_cast<std::size_t>(count); ++i)
   {
@@ -131,7 +131,7 @@ TypeOf(const NIfTIHeader & header, const fs::path & path)
   const std::string datatype = std::to_string(header.datatype);
   if (const auto found = refused.find(header.datatype); found != refused.end())
   {
-    RefuseVolume(path, "its voxels are " + found->second + "; convert them to integers or floats first");
+    RefuseOther(path, "its voxels are " + found->second + "; convert them to integers or floats first");
   }
   const auto found = types.find(header.datatype);
   RefuseVolumeIf(found == types.end(),
@@ -150,10 +150,10 @@ RefuseVectors(const NIfTIHeader & header, const fs::path & path)
   const int intent = header.intent;
   const bool isMatrixToQuaternion = intent >= 1004 && intent <= 1010;
   const bool isColour = intent == 2003 || intent == 2004;
-  RefuseVolumeIf(isMatrixToQuaternion || isColour,
-                 path,
-                 "its voxels are vectors, matrices or colours (intent " + std::to_string(intent) +
-                   "); extract one component first");
+  RefuseOtherIf(isMatrixToQuaternion || isColour,
+                path,
+                "its voxels are vectors, matrices or colours (intent " + std::to_string(intent) +
+                  "); extract one component first");
 }
 
 /** The scaling of values; nothing for a slope of 0 or NaN, which means no scaling, and for slope 1 and intercept 0. */
@@ -375,7 +375,8 @@ ReadNIfTIVolume(const fs::path & path, const ScanReadOptions & options, Scan & s
   const auto found = FindNIfTIHeader(headerFile);
   if (!found)
   {
-    RefuseVolume(headerFile, "its content is not NIfTI, as its name says; check where it came from");
+    const auto refuse = IsNamedAs(headerFile, ".hdr") ? RefuseOther : RefuseVolume; // others have .hdr files, too
+    refuse(headerFile, "its content is not NIfTI, as its name says; check where it came from");
   }
   const NIfTIHeader & header = *found;
   const bool isAnalyze = header.kind == NIfTIHeader::Kind::Analyze;

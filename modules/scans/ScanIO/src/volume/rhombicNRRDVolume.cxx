@@ -109,24 +109,23 @@ FrameAxis(const std::vector<std::string> & kinds,
   {
     if (!IsSpatial(kinds[axis]) && kinds[axis] != "list" && kinds[axis] != "time")
     {
-      RefuseVolume(path,
-                   "its voxels are no single numbers (an axis is of the kind " + kinds[axis] +
-                     "); extract one component first");
+      RefuseOther(path,
+                  "its voxels are no single numbers (an axis is of the kind " + kinds[axis] +
+                    "); extract one component first");
     }
   }
-  RefuseVolumeIf(candidates.size() > dimension - 3,
-                 path,
-                 "only " + std::to_string(dimension - candidates.size()) +
-                   " of its axes lie in space; it is no volume");
+  RefuseOtherIf(candidates.size() > dimension - 3,
+                path,
+                "only " + std::to_string(dimension - candidates.size()) + " of its axes lie in space; it is no volume");
   const std::size_t frameAxis = candidates.empty() ? 3 : candidates.front();
-  RefuseVolumeIf(frameAxis == 1 || frameAxis == 2,
-                 path,
-                 "the axis of its volumes lies between the others, which is not supported; permute it first");
+  RefuseOtherIf(frameAxis == 1 || frameAxis == 2,
+                path,
+                "the axis of its volumes lies between the others, which is not supported; permute it first");
   if (!directions.empty() && frameAxis < dimension && directions[frameAxis].empty() && kinds[frameAxis] != "list")
   {
-    RefuseVolume(path,
-                 "the axis of its volumes is of the kind " + kinds[frameAxis] +
-                   ", which is not supported; call it a list, or extract one volume first");
+    RefuseOther(path,
+                "the axis of its volumes is of the kind " + kinds[frameAxis] +
+                  ", which is not supported; call it a list, or extract one volume first");
   }
   return frameAxis;
 }
@@ -231,9 +230,9 @@ std::string
 EncodingOf(const NRRDHeader & header, const fs::path & path)
 {
   const std::string name = LowerCase(header.Get("encoding"));
-  RefuseVolumeIf(name != "raw" && name != "gz" && name != "gzip",
-                 path,
-                 "its encoding '" + name + "' is not supported; write it as raw or gzip");
+  RefuseOtherIf(name != "raw" && name != "gz" && name != "gzip",
+                path,
+                "its encoding '" + name + "' is not supported; write it as raw or gzip");
   return name == "raw" ? name : "gzip";
 }
 

@@ -125,6 +125,15 @@ ReadVolumePixels(StoredType type,
                  const VolumeGeometry & geometry,
                  const VoxelSource & source);
 
+/** Reads \a count voxels into \a buffer, as they are stored, or as floats when they are scaled. Throws what \a source
+ * throws. */
+void
+ReadNativePixels(StoredType type,
+                 const std::optional<ValueScaling> & scaling,
+                 std::size_t count,
+                 const VoxelSource & source,
+                 void * buffer);
+
 ///@}
 
 } // namespace rhombic

@@ -126,9 +126,9 @@ AxisSizes(const std::string & dimensionText, const std::string & sizesText, cons
                    std::count(sizes->begin(), sizes->end(), 0) > 0,
                  path,
                  "its header contradicts itself about its dimensions; export it again from its source");
-  RefuseVolumeIf(
+  RefuseOtherIf(
     sizes->size() < 3, path, "it is a flat picture of " + Count(sizes->size(), "dimension") + ", not a volume");
-  RefuseVolumeIf(
+  RefuseOtherIf(
     sizes->size() > 4, path, "it has " + std::to_string(sizes->size()) + " dimensions; extract one volume first");
   return *sizes;
 }
@@ -136,9 +136,9 @@ AxisSizes(const std::string & dimensionText, const std::string & sizesText, cons
 fs::path
 DetachedFile(const fs::path & header, const std::string & name)
 {
-  RefuseVolumeIf(name.compare(0, 4, "LIST") == 0 || name.find('%') != std::string::npos,
-                 header,
-                 "its voxels are spread over several files, which is not supported; write it as one file");
+  RefuseOtherIf(name.compare(0, 4, "LIST") == 0 || name.find('%') != std::string::npos,
+                header,
+                "its voxels are spread over several files, which is not supported; write it as one file");
   const fs::path relative(name);
   RefuseVolumeIf(relative.is_absolute() || std::find(relative.begin(), relative.end(), "..") != relative.end(),
                  header,

@@ -9,12 +9,16 @@
 #include "rhombicVolumeRefusal.h"
 #include "rhombicWording.h"
 
+#include "itkImageIOBase.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <map>
+#include <memory>
 #include <set>
+#include <type_traits>
 
 namespace fs = std::filesystem;
 
@@ -32,10 +36,10 @@ ChooseFrame(std::uintmax_t numberOfFrames,
             Scan & scan)
 {
   const std::size_t frame = options.frame.value_or(0);
-  RefuseVolumeIf(!options.frame && numberOfFrames > 1 && options.onSeveralFrames == ScanReadOptions::Policy::Refuse,
-                 path,
-                 "it holds " + std::to_string(numberOfFrames) +
-                   " volumes; choose one with ScanReadOptions::frame, from 0 to " + std::to_string(numberOfFrames - 1));
+  RefuseOtherIf(!options.frame && numberOfFrames > 1 && options.onSeveralFrames == ScanReadOptions::Policy::Refuse,
+                path,
+                "it holds " + std::to_string(numberOfFrames) +
+                  " volumes; choose one with ScanReadOptions::frame, from 0 to " + std::to_string(numberOfFrames - 1));
   FailIf(options.frame && frame >= numberOfFrames,
          FailureKind::Usage,
          "Cannot read volume " + std::to_string(frame) + " of " + path.string() + ": it holds " +
@@ -71,37 +75,115 @@ ReadInterleaved(ByteStream & stream,
   return true;
 }
 
+/** \class FrameBytes
+ * \brief The voxels of a region of one frame, x fastest, in this machine's byte order. */
+class FrameBytes
+{
+public:
+  FrameBytes(const StoredVolume & volume, std::uintmax_t frame, const itk::ImageRegion<3> & region)
+    : m_Volume(volume)
+    , m_Frame(frame)
+    , m_Region(region)
+    , m_VoxelSize(SizeOf(volume.type))
+    , m_FrameSize(volume.geometry.GetNumberOfVoxels() * m_VoxelSize)
+    , m_Stream(volume.voxels.path, volume.voxels.offset, volume.voxels.isDeflated)
+  {
+    m_Stream.Skip(volume.voxels.skip + (volume.areFramesInterleaved ? 0 : frame * m_FrameSize));
+  }
+
+  /** Reads the next \a size bytes, a whole number of voxels. Throws Failure when the file ends before. */
+  void
+  Read(std::byte * buffer, std::size_t size)
+  {
+    const bool isRead = m_Volume.areFramesInterleaved
+                          ? ReadInterleaved(m_Stream, buffer, size, m_VoxelSize, m_Frame, m_Volume.numberOfFrames)
+                          : this->ReadRuns(buffer, size);
+    RefuseVolumeIf(!isRead, m_Volume.voxels.path, "its voxels are damaged or cut off; copy it again");
+    if (m_Volume.voxels.isSwapped)
+    {
+      SwapBytes(buffer, size, m_VoxelSize);
+    }
+  }
+
+  /** Throws Failure when a compressed stream is damaged behind the region, or does not end behind the last frame. */
+  void
+  RequireEnd()
+  {
+    const std::uintmax_t end = (m_Volume.numberOfFrames - m_Frame) * m_FrameSize;
+    RefuseVolumeIf(
+      m_Volume.voxels.isDeflated && !m_Stream.EndsAfter(m_Volume.areFramesInterleaved ? 0 : end - m_Position),
+      m_Volume.voxels.path,
+      "its compressed content is damaged, cut off, or goes on behind the voxels that its header announces; "
+      "copy or export it again");
+  }
+
+private:
+  /** Reads from runs of adjacent voxels. False at the end of the stream. */
+  bool
+  ReadRuns(std::byte * buffer, std::size_t size)
+  {
+    for (std::byte * const end = buffer + size; buffer != end;)
+    {
+      if (m_LeftInRun == 0)
+      {
+        this->GoToNextRun();
+      }
+      const std::size_t part = std::min(static_cast<std::size_t>(end - buffer), m_LeftInRun);
+      if (m_Stream.Read(buffer, part) != part)
+      {
+        return false;
+      }
+      buffer += part;
+      m_Position += part;
+      m_LeftInRun -= part;
+    }
+    return true;
+  }
+
+  /** A run is a row of the region, or all of the region if that is whole slices. */
+  void
+  GoToNextRun()
+  {
+    const itk::Size<3> & size = m_Volume.geometry.size;
+    const itk::Size<3> & part = m_Region.GetSize();
+    const bool areSlicesWhole = part[0] == size[0] && part[1] == size[1];
+    const std::size_t row = m_Region.GetIndex(1) + m_NextRow % part[1];
+    const std::size_t slice = m_Region.GetIndex(2) + m_NextRow / part[1];
+    const std::size_t begin = ((slice * size[1] + row) * size[0] + m_Region.GetIndex(0)) * m_VoxelSize;
+    m_Stream.Skip(begin - m_Position);
+    m_Position = begin;
+    m_LeftInRun = (areSlicesWhole ? m_Region.GetNumberOfPixels() : part[0]) * m_VoxelSize;
+    ++m_NextRow;
+  }
+
+  const StoredVolume & m_Volume;
+  const std::uintmax_t m_Frame;
+  const itk::ImageRegion<3> m_Region;
+  const std::size_t m_VoxelSize;
+  const std::size_t m_FrameSize; ///< in bytes
+  ByteStream m_Stream;
+  std::size_t m_NextRow = 0;
+  std::size_t m_LeftInRun = 0;   ///< bytes
+  std::uintmax_t m_Position = 0; ///< bytes of the frame that were passed
+};
+
 /** Reads one frame, in one pass. */
 ScanImage
 ReadStoredVoxels(const StoredVolume & volume, std::uintmax_t frame, const ScanReadOptions & options)
 {
-  const StoredVoxels & voxels = volume.voxels;
-  const std::size_t voxelSize = SizeOf(volume.type);
-  const std::size_t frameSize = volume.geometry.GetNumberOfVoxels() * voxelSize;
-  ByteStream stream(voxels.path, voxels.offset, voxels.isDeflated);
-  stream.Skip(voxels.skip + (volume.areFramesInterleaved ? 0 : frame * frameSize));
+  FrameBytes bytes(volume, frame, volume.geometry.size);
+  const auto total = static_cast<double>(volume.geometry.GetNumberOfVoxels() * SizeOf(volume.type));
   std::size_t done = 0;
   const auto read = [&](std::byte * buffer, std::size_t size) {
-    const bool isRead = volume.areFramesInterleaved
-                          ? ReadInterleaved(stream, buffer, size, voxelSize, frame, volume.numberOfFrames)
-                          : stream.Read(buffer, size) == size;
-    RefuseVolumeIf(!isRead, voxels.path, "its voxels are damaged or cut off; copy it again");
-    if (voxels.isSwapped)
-    {
-      SwapBytes(buffer, size, voxelSize);
-    }
+    bytes.Read(buffer, size);
     done += size;
     if (options.progress)
     {
-      options.progress(static_cast<double>(done) / static_cast<double>(frameSize));
+      options.progress(static_cast<double>(done) / total);
     }
   };
   ScanImage image = ReadVolumePixels(volume.type, volume.scaling, volume.geometry, read);
-  const std::uintmax_t framesBehind = volume.areFramesInterleaved ? 0 : volume.numberOfFrames - frame - 1;
-  RefuseVolumeIf(voxels.isDeflated && !stream.EndsAfter(framesBehind * frameSize),
-                 voxels.path,
-                 "its compressed content is damaged, cut off, or goes on behind the voxels that its header announces; "
-                 "copy or export it again");
+  bytes.RequireEnd();
   return image;
 }
 
@@ -118,8 +200,36 @@ ReadHeader(const fs::path & path, const ScanReadOptions & options, Scan & scan)
   return volume;
 }
 
-/** Replaces values that are not finite, which would spread when the scan is resampled, by the lowest finite value.
- * Returns their number. */
+/** The lowest finite value; infinity when there is none. */
+template <typename TValue>
+TValue
+LowestFinite(const TValue * begin, const TValue * end)
+{
+  TValue lowest = std::numeric_limits<TValue>::infinity();
+  std::for_each(
+    begin, end, [&lowest](TValue value) { lowest = std::isfinite(value) ? std::min(lowest, value) : lowest; });
+  return lowest;
+}
+
+/** Replaces values that are not finite, which would spread when the scan is resampled, by the lowest finite value,
+ * which \a findLowest gives. Returns their number. Throws Failure when there is no finite value. */
+template <typename TValue, typename TFind>
+std::size_t
+ReplaceNotFinite(TValue * begin, TValue * end, const fs::path & path, const TFind & findLowest)
+{
+  const auto isOther = [](TValue value) { return !std::isfinite(value); };
+  const auto count = static_cast<std::size_t>(std::count_if(begin, end, isOther));
+  if (count > 0)
+  {
+    const TValue lowest = findLowest();
+    RefuseVolumeIf(
+      !std::isfinite(lowest), path, "none of its values is a finite number; export it again from its source");
+    std::replace_if(begin, end, isOther, lowest);
+  }
+  return count;
+}
+
+/** ReplaceNotFinite() in an image of floats. */
 std::size_t
 ReplaceNotFinite(const ScanImage & image, const fs::path & path)
 {
@@ -130,22 +240,54 @@ ReplaceNotFinite(const ScanImage & image, const fs::path & path)
   }
   float * const begin = (*pointer)->GetBufferPointer();
   float * const end = begin + (*pointer)->GetBufferedRegion().GetNumberOfPixels();
-  float lowest = std::numeric_limits<float>::infinity();
-  std::size_t count = 0;
-  for (const float * value = begin; value != end; ++value)
+  return ReplaceNotFinite(begin, end, path, [=] { return LowestFinite(begin, end); });
+}
+
+/** The lowest finite value of a file's only frame, read in pieces. */
+template <typename TValue>
+TValue
+FindLowest(const StoredVolume & volume)
+{
+  FrameBytes bytes(volume, 0, volume.geometry.size);
+  const auto source = [&bytes](std::byte * buffer, std::size_t size) { bytes.Read(buffer, size); };
+  std::vector<TValue> piece(volume.geometry.size[0] * volume.geometry.size[1]);
+  TValue lowest = std::numeric_limits<TValue>::infinity();
+  for (std::size_t slice = 0; slice < volume.geometry.size[2]; ++slice)
   {
-    const bool isFinite = std::isfinite(*value);
-    count += isFinite ? 0 : 1;
-    lowest = isFinite ? std::min(lowest, *value) : lowest;
+    ReadNativePixels(volume.type, volume.scaling, piece.size(), source, piece.data());
+    lowest = std::min(lowest, LowestFinite(piece.data(), piece.data() + piece.size()));
   }
-  RefuseVolumeIf(
-    !std::isfinite(lowest), path, "none of its values is a finite number; export it again from its source");
-  if (count > 0)
-  {
-    std::replace_if(
-      begin, end, [](float value) { return !std::isfinite(value); }, lowest);
-  }
-  return count;
+  return lowest;
+}
+
+/** The voxels of a file's only frame (see UnreadScan::native). */
+NativeVoxels
+NativeVoxelsOf(const StoredVolume & volume, const fs::path & path)
+{
+  const auto typeOf = [&volume](auto stored) {
+    return volume.scaling ? itk::IOComponentEnum::FLOAT : itk::ImageIOBase::MapPixelType<decltype(stored)>::CType;
+  };
+  const auto lowest = std::make_shared<std::optional<double>>(); // found once for all regions
+  const auto read = [=](const itk::ImageRegion<3> & region, void * buffer) {
+    FrameBytes bytes(volume, 0, region);
+    const std::size_t count = region.GetNumberOfPixels();
+    const auto source = [&bytes](std::byte * piece, std::size_t size) { bytes.Read(piece, size); };
+    ReadNativePixels(volume.type, volume.scaling, count, source, buffer);
+    bytes.RequireEnd();
+    const auto replace = [&](auto stored) {
+      using Value = decltype(stored);
+      if constexpr (std::is_floating_point_v<Value>)
+      {
+        auto * const values = static_cast<Value *>(buffer);
+        ReplaceNotFinite(values, values + count, path, [&] {
+          *lowest = *lowest ? *lowest : FindLowest<Value>(volume);
+          return static_cast<Value>(**lowest);
+        });
+      }
+    };
+    volume.scaling ? replace(float()) : std::visit(replace, volume.type);
+  };
+  return { std::visit(typeOf, volume.type), !volume.voxels.isDeflated, read };
 }
 
 /** Reads all layers of a 3D Slicer segmentation, each of which numbers its segments independently. */
@@ -255,26 +397,31 @@ OpenVolumeFile(const fs::path & path, const ScanReadOptions & options)
   {
     scan.notes.push_back(path.string() + " " + volume.note + ".");
   }
-  return { scan, [=](Scan & read) {
-            const std::uintmax_t group = volume.areFramesInterleaved ? volume.numberOfFrames * SizeOf(volume.type) : 0;
-            RequireMemory(
-              group + MemoryOfPixels(volume.type, volume.scaling.has_value(), volume.geometry.GetNumberOfVoxels()),
-              options.maximumMemory,
-              "Reading " + path.string());
-            if (isLayered)
-            {
-              ReadLayers(volume, segments, path, options, read);
-              return;
-            }
-            read.image = ReadStoredVoxels(volume, read.frame, options);
-            if (const std::size_t count = ReplaceNotFinite(read.image, path); count > 0)
-            {
-              read.notes.push_back(
-                path.string() + " holds " +
-                Count(count, "value that is no finite number", "values that are not finite numbers") +
-                "; the lowest value took their place.");
-            }
-          } };
+  UnreadScan file;
+  file.scan = scan;
+  file.readVoxels = [=](Scan & read) {
+    const std::uintmax_t group = volume.areFramesInterleaved ? volume.numberOfFrames * SizeOf(volume.type) : 0;
+    RequireMemory(group + MemoryOfPixels(volume.type, volume.scaling.has_value(), volume.geometry.GetNumberOfVoxels()),
+                  options.maximumMemory,
+                  "Reading " + path.string());
+    if (isLayered)
+    {
+      ReadLayers(volume, segments, path, options, read);
+      return;
+    }
+    read.image = ReadStoredVoxels(volume, read.frame, options);
+    if (const std::size_t count = ReplaceNotFinite(read.image, path); count > 0)
+    {
+      read.notes.push_back(path.string() + " holds " +
+                           Count(count, "value that is no finite number", "values that are not finite numbers") +
+                           "; the lowest value took their place.");
+    }
+  };
+  if (volume.numberOfFrames == 1)
+  {
+    file.native = NativeVoxelsOf(volume, path);
+  }
+  return file;
 }
 
 } // namespace rhombic

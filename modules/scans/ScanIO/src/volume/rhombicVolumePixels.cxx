@@ -29,9 +29,8 @@ using PixelFor =
 /** Calls \a use with each chunk of the voxels: its values, their number, and the index of the first. */
 template <typename TStored, typename TUse>
 void
-ForEachChunk(const VolumeGeometry & geometry, const VoxelSource & source, const TUse & use)
+ForEachChunk(std::size_t total, const VoxelSource & source, const TUse & use)
 {
-  const std::size_t total = geometry.GetNumberOfVoxels();
   std::vector<TStored> chunk(std::min(total, ChunkVoxels));
   for (std::size_t first = 0; first < total; first += chunk.size())
   {
@@ -56,16 +55,24 @@ ReadDirectly(const VolumeGeometry & geometry, const VoxelSource & source)
   return image;
 }
 
+/** Reads voxels and converts them. */
 template <typename TStored, typename TPixel, typename TConvert>
-ScanImage
-ReadConverted(const VolumeGeometry & geometry, const VoxelSource & source, const TConvert & convert)
+void
+ReadConverted(std::size_t total, const VoxelSource & source, const TConvert & convert, TPixel * pixels)
 {
-  const auto image = NewImage<TPixel>(geometry);
-  TPixel * const pixels = image->GetBufferPointer();
-  ForEachChunk<TStored>(geometry, source, [&](const TStored * values, std::size_t count, std::size_t first) {
+  ForEachChunk<TStored>(total, source, [&](const TStored * values, std::size_t count, std::size_t first) {
     std::transform(values, values + count, pixels + first, convert);
   });
-  return image;
+}
+
+template <typename TStored>
+void
+ReadScaled(std::size_t total, const VoxelSource & source, const ValueScaling & scaling, float * pixels)
+{
+  const auto scale = [&scaling](TStored value) {
+    return static_cast<float>(scaling.slope * static_cast<double>(value) + scaling.intercept);
+  };
+  ReadConverted<TStored>(total, source, scale, pixels);
 }
 
 /** Converts values to the pixels of an image from the \a first on. */
@@ -87,9 +94,10 @@ ReadWide(const VolumeGeometry & geometry, const VoxelSource & source)
     return value <= static_cast<TStored>(Limits::max()) &&
            (std::is_unsigned_v<TStored> || value >= static_cast<TStored>(Limits::min()));
   };
+  const std::size_t total = geometry.GetNumberOfVoxels();
   auto integers = NewImage<std::int32_t>(geometry);
   itk::Image<float, 3>::Pointer floats;
-  ForEachChunk<TStored>(geometry, source, [&](const TStored * values, std::size_t count, std::size_t first) {
+  ForEachChunk<TStored>(total, source, [&](const TStored * values, std::size_t count, std::size_t first) {
     if (!floats && !std::all_of(values, values + count, fits))
     {
       floats = NewImage<float>(geometry);
@@ -158,9 +166,9 @@ ReadVolumePixels(StoredType type,
     using Pixel = PixelFor<Stored>;
     if (scaling)
     {
-      return ReadConverted<Stored, float>(geometry, source, [&scaling](Stored value) {
-        return static_cast<float>(scaling->slope * static_cast<double>(value) + scaling->intercept);
-      });
+      const auto image = NewImage<float>(geometry);
+      ReadScaled<Stored>(geometry.GetNumberOfVoxels(), source, *scaling, image->GetBufferPointer());
+      return image;
     }
     if constexpr (IsWide<Stored>)
     {
@@ -172,10 +180,28 @@ ReadVolumePixels(StoredType type,
     }
     else
     {
-      return ReadConverted<Stored, Pixel>(geometry, source, [](Stored value) { return static_cast<Pixel>(value); });
+      const auto image = NewImage<Pixel>(geometry);
+      const auto convert = [](Stored value) { return static_cast<Pixel>(value); };
+      ReadConverted<Stored>(geometry.GetNumberOfVoxels(), source, convert, image->GetBufferPointer());
+      return image;
     }
   };
   return std::visit(read, type);
+}
+
+void
+ReadNativePixels(StoredType type,
+                 const std::optional<ValueScaling> & scaling,
+                 std::size_t count,
+                 const VoxelSource & source,
+                 void * buffer)
+{
+  const auto read = [&](auto stored) {
+    using Stored = decltype(stored);
+    scaling ? ReadScaled<Stored>(count, source, *scaling, static_cast<float *>(buffer))
+            : source(static_cast<std::byte *>(buffer), count * sizeof(Stored));
+  };
+  std::visit(read, type);
 }
 
 } // namespace rhombic

@@ -36,6 +36,32 @@ RefuseVolumeIf(bool isRefused, const std::filesystem::path & path, const std::st
   }
 }
 
+/** \class OtherImage
+ * \brief The failure for a file that holds no volume of single numbers, such as a picture, a colour image or several
+ * volumes, or a volume in a form that this module does not read. Other readers may read the file. */
+class OtherImage : public Failure
+{
+public:
+  using Failure::Failure;
+};
+
+/** Throws OtherImage(Unreadable): "Cannot read PATH: WHY." */
+[[noreturn]] inline void
+RefuseOther(const std::filesystem::path & path, const std::string & why)
+{
+  throw OtherImage(FailureKind::Unreadable, "Cannot read " + path.string() + ": " + why + ".");
+}
+
+/** RefuseOther() when a condition is true. */
+inline void
+RefuseOtherIf(bool isOther, const std::filesystem::path & path, const std::string & why)
+{
+  if (isOther)
+  {
+    RefuseOther(path, why);
+  }
+}
+
 /** Throws Failure(Geometry): "Cannot place PATH in the patient: WHY." */
 [[noreturn]] inline void
 RefuseGeometry(const std::filesystem::path & path, const std::string & why)
