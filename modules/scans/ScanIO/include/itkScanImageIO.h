@@ -29,9 +29,10 @@ namespace itk
  *   allow values beyond SHORT (16 stored bits with an intercept), ReadImageInformation() reads the voxels to know
  *   whether there are any, and keeps them for the next Read(). Otherwise it reads headers only.
  * - The reader converts values to its own pixel type as ITK does: with a cast.
- * - Several volumes in a NIfTI, NRRD or MetaImage file, DICOM files of one slice, pictures, vectors, complex numbers,
- *   colours, texts and kinds of DICOM images that OpenScan() does not read are left to ITK: CanReadFile() is false. A
- *   DICOM folder is a series, but ImageSeriesReader, which names single files, reads what it reads without this class.
+ * - Several volumes in a NIfTI, NRRD or MetaImage file, pictures, vectors, complex numbers, colours, texts and kinds of
+ *   DICOM images that OpenScan() does not read are left to ITK: CanReadFile() is false.
+ * - A DICOM folder is a series, and a DICOM file is that file alone, also one slice: ImageSeriesReader, which names the
+ *   files, gives the image that it gives with GDCMImageIO. Tags are GDCMImageIO's: `SetImageIO()` brings them back.
  * - Damaged files are not left to ITK: ReadImageInformation() or Read() throw.
  * - Files of this module's formats without compression are read in part: CanStreamRead() is true for them.
  * - Choices are ScanFileReader's: it reads slices at uneven distances and with gaps, which no ITK image holds, one of

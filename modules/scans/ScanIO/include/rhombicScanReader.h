@@ -46,6 +46,10 @@ struct ScanReadOptions
   /** For files of several volumes without a \a frame. When accepted, the first volume is read. */
   Policy onSeveralFrames = Policy::Refuse;
 
+  /** For DICOM files of one slice. When accepted, they are volumes of one slice, in which padding is left as it is. Its
+   * step is SpacingBetweenSlices for MR and 1 mm for others, as by itk::GDCMImageIO. */
+  Policy onSingleSlice = Policy::Refuse;
+
   /** Whether Analyze 7.5 files are read, whose orientation is unknown. */
   bool acceptsAnalyze = false;
 

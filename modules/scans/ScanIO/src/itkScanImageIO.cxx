@@ -15,11 +15,13 @@ namespace itk
 namespace
 {
 
-/** Opens a scan that one image of single numbers holds. */
+/** Opens a scan that one image of single numbers holds, or a single slice of one. */
 rhombic::UnreadScan
 OpenImage(const std::string & fileName)
 {
-  rhombic::UnreadScan file = rhombic::OpenScan(fileName);
+  rhombic::ScanReadOptions options;
+  options.onSingleSlice = rhombic::ScanReadOptions::Policy::Accept;
+  rhombic::UnreadScan file = rhombic::OpenScan(fileName, options);
   std::error_code error;
   const bool isVolumeFile =
     !rhombic::VolumeFormatOf(fileName).empty() && !std::filesystem::is_directory(fileName, error);

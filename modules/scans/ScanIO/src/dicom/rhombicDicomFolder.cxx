@@ -277,6 +277,37 @@ OpenSlices(const std::vector<DicomSlice> & slices, Scan scan, const fs::path & p
   return OpenSeries(series[choice.index].slices, options, std::move(scan));
 }
 
+/** Opens a slice by itself (see ScanReadOptions::onSingleSlice). */
+UnreadScan
+OpenSingle(const DicomSlice & slice, const ScanReadOptions & options)
+{
+  const auto file = std::make_shared<DicomImageFile>(*slice.file);
+  file->format.padding.reset();
+  std::vector<DicomSlice> slices{ slice };
+  slices.front().file = file;
+  const itk::Vector<double, 3> steps[] = { slice.plane->columnStep,
+                                           slice.plane->rowStep,
+                                           NormalOf(*slice.plane) * slice.step };
+  const VolumeGeometry geometry =
+    MakeGeometry({ { file->format.columns, file->format.rows, 1 } }, slice.plane->position, steps);
+  UnreadScan opened;
+  opened.scan.format = "DICOM";
+  opened.scan.modality = slice.modality;
+  opened.scan.files = { file->path };
+  opened.scan.scaling = DescribeScalingOf(slices);
+  NoteCompression(slices, opened.scan);
+  opened.scan.image = NewDicomImage(slices, geometry);
+  opened.isTypeCertain = HoldsAllValues(opened.scan.image, slices);
+  opened.readVoxels = [=](Scan & read) {
+    const DicomPixels pixels = ReadDicomPixels(slices, geometry, options);
+    FailIf(!pixels.failures.empty(),
+           FailureKind::Unreadable,
+           pixels.failures.empty() ? "" : pixels.failures.begin()->second);
+    read.image = pixels.image;
+  };
+  return opened;
+}
+
 /** The slices of a folder; at least one. */
 std::vector<DicomSlice>
 ReadFolder(const fs::path & folder, const ScanReadOptions & options, Scan & scan)
@@ -290,9 +321,15 @@ ReadFolder(const fs::path & folder, const ScanReadOptions & options, Scan & scan
   return slices;
 }
 
-/** The slices of a file that holds a volume. */
+bool
+IsSingle(const std::vector<DicomSlice> & slices)
+{
+  return slices.size() == 1 && slices.front().kind == DicomSlice::Kind::Scan;
+}
+
+/** The slices of a file that holds a volume, or a single slice if the options accept that. */
 std::vector<DicomSlice>
-ReadFile(const fs::path & path)
+ReadFile(const fs::path & path, const ScanReadOptions & options)
 {
   std::vector<DicomSlice> slices = ReadDicomSlices(path);
   RefuseOtherIf(
@@ -301,15 +338,18 @@ ReadFile(const fs::path & path)
   const std::string & damage = first.file->pixelDamage;
   if (!first.refusal.empty())
   {
-    const auto refuse = first.kind == DicomSlice::Kind::Scan && damage.empty() ? RefuseOther : RefuseVolume;
+    const auto refuse = first.isOther && damage.empty() ? RefuseOther : RefuseVolume;
     refuse(path, first.refusal + "; give a folder of plain CT, MR or PET slices");
   }
   RefuseVolumeIf(!damage.empty(), path, damage + "; copy it again from its source");
-  if (slices.size() == 1 && first.kind == DicomSlice::Kind::Scan)
+  FailIf(IsSingle(slices) && options.onSingleSlice == ScanReadOptions::Policy::Refuse,
+         FailureKind::Geometry,
+         "Cannot read " + path.string() +
+           ": it is a single slice, which is no volume; give the folder of the whole series.");
+  if (IsSingle(slices) && !first.plane)
   {
-    throw OtherImage(FailureKind::Geometry,
-                     "Cannot read " + path.string() +
-                       ": it is a single slice, which is no volume; give the folder of the whole series.");
+    const auto refuse = first.isOther ? RefuseOther : RefuseGeometry;
+    refuse(path, first.planeProblem + "; export it again from its source");
   }
   return slices;
 }
@@ -327,14 +367,15 @@ OpenDicomFolder(const fs::path & folder, const ScanReadOptions & options)
 UnreadScan
 OpenDicomFile(const fs::path & path, const ScanReadOptions & options)
 {
-  return OpenSlices(ReadFile(path), Scan(), path, options);
+  const std::vector<DicomSlice> slices = ReadFile(path, options);
+  return IsSingle(slices) ? OpenSingle(slices.front(), options) : OpenSlices(slices, Scan(), path, options);
 }
 
 SeriesList
 ListDicomSeries(const fs::path & path, bool isFolder, const ScanReadOptions & options)
 {
   Scan found;
-  const std::vector<DicomSlice> slices = isFolder ? ReadFolder(path, options, found) : ReadFile(path);
+  const std::vector<DicomSlice> slices = isFolder ? ReadFolder(path, options, found) : ReadFile(path, options);
   const std::vector<DicomSeries> series = GroupIntoSeries(slices);
   const auto choice = FindSeries(series, options.series, path);
   SeriesList list{ Summarize(series, choice ? choice->index : series.size()),

@@ -95,7 +95,7 @@ FindPixelDamage(const DicomHeader & header, const DicomPixelFormat & format)
   return "";
 }
 
-/** Why the image can't be a slice of a volume, as "it ..."; empty if it can. */
+/** Why a kind of image can't be a slice of a volume, as "it ..."; empty if it can. */
 std::string
 FindRefusal(const DicomDataSet & dataSet, const DicomPixelFormat & format)
 {
@@ -127,6 +127,15 @@ FindRefusal(const DicomDataSet & dataSet, const DicomPixelFormat & format)
   {
     return "its kind of pixels (photometric interpretation, samples per pixel) is not supported";
   }
+  return dataSet.GetItems(DicomTags::ModalityLUTSequence).empty()
+           ? ""
+           : "its values go through a table (Modality LUT), which is not supported";
+}
+
+/** As FindRefusal(), of pixels that no image can have, and of those with sizes that are not supported. */
+std::string
+FindBitsRefusal(const DicomDataSet & dataSet, const DicomPixelFormat & format)
+{
   const bool isByteWise = format.bitsAllocated == 8 || format.bitsAllocated == 16 || format.bitsAllocated == 32;
   if ((!isByteWise && !(IsSegmentation(dataSet) && format.bitsAllocated == 1)) || format.bitsStored == 0 ||
       format.bitsStored > format.bitsAllocated || format.highBit >= format.bitsAllocated ||
@@ -134,10 +143,6 @@ FindRefusal(const DicomDataSet & dataSet, const DicomPixelFormat & format)
   {
     return "its pixels have " + std::to_string(format.bitsStored) + " of " + std::to_string(format.bitsAllocated) +
            " bits, which is not supported";
-  }
-  if (!dataSet.GetItems(DicomTags::ModalityLUTSequence).empty())
-  {
-    return "its values go through a table (Modality LUT), which is not supported";
   }
   return "";
 }
@@ -184,6 +189,11 @@ ReadPlainSlice(const DicomDataSet & dataSet, DicomSlice & slice)
                          stack.empty() ? "" : "stack " + NameCodeOf(stack),
                          named("acquisition ", DicomTags::AcquisitionNumber) };
   ReadScaling(dataSet, slice);
+  const auto step = dataSet.GetDecimals(DicomTags::SpacingBetweenSlices);
+  const bool isMR = dataSet.GetText(DicomTags::SOPClassUID) == "1.2.840.10008.5.1.4.1.1.4";
+  slice.isOther =
+    slice.isOther || !(dataSet.Has(DicomTags::ImagePositionPatient) || dataSet.Has(DicomTags::ImageOrientationPatient));
+  slice.step = isMR && step.size() == 1 && step[0] > 0 ? step[0] : 1;
   slice.plane = MakeSlicePlane(dataSet.GetDecimals(DicomTags::ImagePositionPatient),
                                dataSet.GetDecimals(DicomTags::ImageOrientationPatient),
                                dataSet.GetDecimals(DicomTags::PixelSpacing),
@@ -301,6 +311,7 @@ ReadDicomSlices(const std::filesystem::path & path)
   {
     const bool isUnreadable = FindTransferSyntax(header->transferSyntax).codec == PixelCodec::Unsupported;
     slice.kind = isUnreadable ? DicomSlice::Kind::Scan : DicomSlice::Kind::NoImage;
+    slice.isOther = isUnreadable;
     slice.refusal = isUnreadable             ? FindRefusal(dataSet, file->format)
                     : header->damage.empty() ? "it holds no image (a report, plan or the like)"
                                              : header->damage;
@@ -312,6 +323,8 @@ ReadDicomSlices(const std::filesystem::path & path)
     file->segmentation = std::make_shared<DicomDataSet>(dataSet);
   }
   slice.refusal = FindRefusal(dataSet, file->format);
+  slice.isOther = slice.kind == DicomSlice::Kind::Scan && !slice.refusal.empty();
+  slice.refusal = slice.refusal.empty() ? FindBitsRefusal(dataSet, file->format) : slice.refusal;
 
   const std::size_t frames = dataSet.GetItems(DicomTags::PerFrameFunctionalGroupsSequence).size();
   if (frames == 0 && slice.kind == DicomSlice::Kind::Segmentation && slice.refusal.empty())
@@ -326,6 +339,7 @@ ReadDicomSlices(const std::filesystem::path & path)
   }
   if (frames != file->format.frames)
   {
+    slice.isOther = slice.isOther || slice.refusal.empty();
     slice.refusal =
       slice.refusal.empty() ? "it is a multi-frame image that does not say where its frames are" : slice.refusal;
     return { slice };

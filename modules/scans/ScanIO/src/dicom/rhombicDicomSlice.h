@@ -124,9 +124,11 @@ struct DicomSlice
   std::array<std::string, NumberOfDistinctions> distinctions;
   double slope = 1;
   double intercept = 0;
+  double step = 1;                 ///< SpacingBetweenSlices of a plain MR image in mm; 1 when unknown
   std::optional<SlicePlane> plane; ///< absent when the header has no usable one
   std::string planeProblem;        ///< why it is absent
   std::string refusal;             ///< why it can't be a slice of a volume ("it is ..."); empty if it can
+  bool isOther = false; ///< whether it is intact, but a kind of image that is not read, or no slice of a patient
 };
 
 /** The slices of a file, one for each frame; a single one when the header does not place its frames. Nothing when the
