@@ -96,6 +96,25 @@ TEST_F(Examples, ResampleAndSaveMakesTheFileThatRhombicResampleMakes)
   EXPECT_TRUE(ReadText(m_Folder.Path() / "example.fcc.nrrd") == ReadText(m_Folder.Path() / "program.fcc.nrrd"));
 }
 
+TEST_F(Examples, ShrinkScanReadsEachFormatAndWritesNothingAboutThePatient)
+{
+  std::string voxels;
+  for (const std::string & scan : { phantom + "/dicom", phantom + "/phantom.nii.gz" })
+  {
+    Run("ShrinkScan " + scan + " 4 small.mha");
+    const std::string file = ReadText(m_Folder.Path() / "small.mha");
+    const std::size_t end = file.find("ElementDataFile = LOCAL");
+    ASSERT_NE(end, std::string::npos);
+    const std::string header = file.substr(0, end);
+    EXPECT_NE(header.find("ElementType = MET_SHORT"), std::string::npos) << header;
+    EXPECT_EQ(header.find("0010|"), std::string::npos) << header;
+    EXPECT_TRUE(voxels.empty() || file.substr(end) == voxels) << scan;
+    voxels = file.substr(end);
+  }
+  const Outcome outcome = rhombictest::RunShell("ShrinkScan missing 4 small.mha", m_Folder.Path());
+  EXPECT_EQ(outcome.exitCode, 1);
+}
+
 TEST_F(Examples, SlicesAreWhereTheScanSaysOrRefused)
 {
   const auto slices = m_Folder.Path() / "slices";

@@ -41,6 +41,8 @@ run(${CMAKE_COMMAND} -S "${WORK}/prefix/share/doc/librhombic-dev/examples" -B "$
 run(${CMAKE_COMMAND} --build "${WORK}/examples")
 run("${WORK}/examples/ResampleAndSave" "${SCAN}" "${WORK}/example.fcc.nrrd")
 message("ResampleAndSave: ${output}")
+run("${WORK}/examples/ShrinkScan" "${SCAN}" 4 "${WORK}/small.mha")
+run("${WORK}/prefix/bin/rhombic" info "${WORK}/small.mha")
 
 # The program of the map, as it stands there.
 file(READ "${WORK}/prefix/share/doc/librhombic-dev/modules/README.md" map)
