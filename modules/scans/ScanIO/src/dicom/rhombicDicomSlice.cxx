@@ -81,7 +81,7 @@ FindPixelDamage(const DicomHeader & header, const DicomPixelFormat & format)
   const std::string photometric = header.dataSet.GetText(DicomTags::PhotometricInterpretation);
   const bool sharesColours = photometric == "YBR_FULL_422" || photometric == "YBR_PARTIAL_422"; // of two pixels
   const std::uintmax_t samples =
-    sharesColours ? 2 : std::max<std::uint16_t>(1, header.dataSet.GetShort(DicomTags::SamplesPerPixel).value_or(1));
+    sharesColours ? 2 : std::clamp<unsigned int>(header.dataSet.GetShort(DicomTags::SamplesPerPixel).value_or(1), 1, 4);
   const std::uintmax_t pixels = std::uintmax_t{ format.columns } * format.rows * format.frames * samples;
   const std::uintmax_t needed = (pixels * format.bitsAllocated + 7) / 8;
   const std::uintmax_t claimed = header.pixels.size;
