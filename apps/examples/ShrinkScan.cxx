@@ -1,13 +1,11 @@
 // A pipeline of ITK's own classes, which reads with Rhombic's checks: itk::ImageFileReader, a filter, and a writer.
 
+#include "exampleInput.h"
 #include "itkBinShrinkImageFilter.h"
 #include "itkImageFileReader.h"
 #include "itkImageFileWriter.h"
 #include "itkMetaImageIOFactory.h"
 #include "itkScanImageIOFactory.h"
-#include "rhombicFailure.h"
-
-#include <iostream>
 
 int
 main(int argc, char ** argv)
@@ -24,7 +22,7 @@ try
   reader->SetFileName(argv[1]); // a DICOM folder, or a DICOM, NIfTI, NRRD or MetaImage file
   const auto shrink = itk::BinShrinkImageFilter<ImageType, ImageType>::New();
   shrink->SetInput(reader->GetOutput());
-  shrink->SetShrinkFactors(static_cast<unsigned int>(std::stoul(argv[2])));
+  shrink->SetShrinkFactors(example::ParseNumber<unsigned int>("FACTOR", argv[2], 1));
   const auto writer = itk::ImageFileWriter<ImageType>::New();
   writer->SetInput(shrink->GetOutput());
   writer->SetFileName(argv[3]);
@@ -32,6 +30,5 @@ try
 }
 catch (const std::exception & error)
 {
-  std::cerr << rhombic::DescribeError(error) << '\n';
-  return 1;
+  return example::Report(error);
 }
