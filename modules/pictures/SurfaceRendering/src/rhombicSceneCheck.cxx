@@ -134,12 +134,13 @@ constexpr std::uintmax_t LibraryBytes = 110 << 20; // graphics libraries and com
 
 constexpr std::uintmax_t SampleBytes = 8;       // colour and depth
 constexpr std::uintmax_t LayerSampleBytes = 20; // colours of a layer and of all, two depths
-constexpr std::uintmax_t PixelBytes = 8;        // colour, and the picture
-constexpr std::uintmax_t ShadePixelBytes = 12;  // depth, surface, share of light
+constexpr std::uintmax_t LayerPixelBytes = 8;   // colour and depth below the layers
+// The window's buffers 28, what is behind the surfaces 12, relief and shades 12, the picture and VTK's copy of it 8.
+constexpr std::uintmax_t PixelBytes = 60;
 
 // For the scene:
 constexpr std::uintmax_t VertexBytes = 24;            // point and normal
-constexpr std::uintmax_t TriangleBytes = 12;          // indices of its vertices
+constexpr std::uintmax_t TriangleBytes = 16;          // indices of its vertices, its place in the polydata
 constexpr std::uintmax_t PlanePixelBytes = 8;         // its texture, and a copy meanwhile
 constexpr std::uintmax_t BinnedTriangleBytes = 64;    // a triangle that waits to be drawn
 constexpr std::uintmax_t MostBinnedBytes = 100 << 20; // all triangles that wait, at most
@@ -160,7 +161,7 @@ BytesOfPixel(const RenderSettings & settings, bool isTranslucent)
 {
   const std::uintmax_t sample = SampleBytes + (isTranslucent ? LayerSampleBytes : 0);
   return static_cast<std::uintmax_t>(settings.samples * settings.samples) * sample + PixelBytes +
-         (settings.ambientOcclusion || settings.silhouettes ? ShadePixelBytes : 0);
+         (isTranslucent ? LayerPixelBytes : 0);
 }
 
 /** Advice to draw a smaller picture of the same shape that needs at most \a bytes; empty when there is none. */
