@@ -2,6 +2,7 @@
 
 #include <vtkActor.h>
 #include <vtkImageData.h>
+#include <vtkMatrix4x4.h>
 #include <vtkOpenGLRenderer.h>
 #include <vtkOpenGLShaderCache.h>
 #include <vtkOpenGLState.h>
@@ -117,13 +118,31 @@ IsColouredByScalars(vtkActor * actor)
                                                                         ofCells) != nullptr;
 }
 
+/** The box around the corners of a transformed box. */
+itk::PointBox
+BoxInWorld(const itk::PointBox & box, vtkMatrix4x4 * worldFromModel)
+{
+  constexpr float largest = std::numeric_limits<float>::max();
+  itk::PointBox around{ { largest, largest, largest }, { -largest, -largest, -largest } };
+  for (unsigned int corner = 0; corner < 8; ++corner)
+  {
+    std::array<float, 4> point{ 0.0f, 0.0f, 0.0f, 1.0f };
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      point[axis] = (corner >> axis & 1U) != 0 ? box.highest[axis] : box.lowest[axis];
+    }
+    worldFromModel->MultiplyPoint(point.data(), point.data());
+    around.Add(PointOfActor{ point[0], point[1], point[2] });
+  }
+  return around;
+}
+
 /** The time of the latest change of what is uploaded. */
 vtkMTimeType
 TimeOf(vtkActor * actor)
 {
   vtkMapper * const mapper = actor->GetMapper();
   vtkMTimeType time = mapper->GetInput()->GetMTime();
-  time = std::max(time, actor->GetProperty()->GetMTime());
   if (IsColouredByScalars(actor))
   {
     time = std::max(time, mapper->GetMTime());
@@ -142,7 +161,8 @@ ActorBuffers::Upload(vtkActor * actor)
 {
   Buffers & buffers = m_Buffers[actor];
   buffers.isUsed = true;
-  if (buffers.time == TimeOf(actor))
+  const bool isTranslucent = actor->HasTranslucentPolygonalGeometry() != 0;
+  if (buffers.time == TimeOf(actor) && buffers.isFlat == IsFlat(actor) && buffers.isTranslucent == isTranslucent)
   {
     return buffers;
   }
@@ -160,13 +180,16 @@ ActorBuffers::Upload(vtkActor * actor)
   buffers.indices =
     UploadValues(ordered.triangles.data(), ordered.triangles.size(), vtkOpenGLBufferObject::ElementArrayBuffer);
   buffers.cells = std::move(ordered.cells);
-  buffers.areClosed = triangles.AreClosed();
+  buffers.box = triangles.box;
+  buffers.areClosed = !isTranslucent && triangles.AreClosed();
   buffers.meanEdge = triangles.MeanEdge();
   buffers.triangles = static_cast<double>(triangles.triangles.size);
   if (vtkImageData * const picture = PictureOf(actor))
   {
     buffers.picture = UploadPicture(picture, m_Window);
   }
+  buffers.isFlat = IsFlat(actor);
+  buffers.isTranslucent = isTranslucent;
   buffers.time = TimeOf(actor);
   return buffers;
 }
@@ -269,20 +292,21 @@ ActorBuffers::MeanEdge() const
 double
 ActorBuffers::MeanSide() const
 {
-  constexpr double largest = std::numeric_limits<double>::max();
-  std::array<double, 6> bounds{ largest, -largest, largest, -largest, largest, -largest };
-  bool hasSurface = false;
+  constexpr float largest = std::numeric_limits<float>::max();
+  itk::PointBox around{ { largest, largest, largest }, { -largest, -largest, -largest } };
   for (const Drawing & drawing : m_Drawings)
   {
-    const double * const around = drawing.program.isPicture ? nullptr : drawing.actor->GetBounds();
-    for (std::size_t axis = 0; around && axis < 3; ++axis)
+    if (!drawing.program.isPicture)
     {
-      bounds[2 * axis] = std::min(bounds[2 * axis], around[2 * axis]);
-      bounds[2 * axis + 1] = std::max(bounds[2 * axis + 1], around[2 * axis + 1]);
+      around.Add(BoxInWorld(drawing.buffers->box, drawing.actor->GetMatrix()));
     }
-    hasSurface = hasSurface || around;
   }
-  return hasSurface ? (bounds[1] - bounds[0] + bounds[3] - bounds[2] + bounds[5] - bounds[4]) / 3.0 : 0.0;
+  double sum = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    sum += std::max(static_cast<double>(around.highest[axis]) - static_cast<double>(around.lowest[axis]), 0.0);
+  }
+  return sum / 3.0;
 }
 
 void

@@ -79,7 +79,9 @@ private:
   /** The triangles of one actor. */
   struct Buffers
   {
-    vtkMTimeType time = 0;                              ///< when what was uploaded had changed
+    vtkMTimeType time = 0; ///< when what was uploaded had changed
+    bool isFlat = false;   ///< and next: what was uploaded
+    bool isTranslucent = false;
     vtkSmartPointer<vtkOpenGLBufferObject> points;      ///< and next
     vtkSmartPointer<vtkOpenGLBufferObject> normals;     ///< none when faceted
     vtkSmartPointer<vtkOpenGLBufferObject> colours;     ///< none without scalars
@@ -89,8 +91,9 @@ private:
     vtkShaderProgram * program = nullptr;               ///< of the arrays
     vtkSmartPointer<vtkTextureObject> picture;
     std::vector<TriangleCell> cells;
-    bool areClosed = false;
-    double meanEdge = 0.0; ///< length
+    itk::PointBox box{};
+    bool areClosed = false; ///< only of opaque actors
+    double meanEdge = 0.0;  ///< length
     double triangles = 0.0;
     bool isUsed = false; ///< in this picture
   };

@@ -239,7 +239,12 @@ ActorTriangles::KeepTrianglesWithPoints()
       return point < points.size && (allAreFinite || IsFinite(points[point]));
     });
   };
-  if (!std::all_of(triangles.begin(), triangles.end(), hasPoints))
+  std::uint32_t last = 0;
+  for (const TriangleOfActor & triangle : triangles)
+  {
+    last = std::max({ last, triangle[0], triangle[1], triangle[2] });
+  }
+  if (!allAreFinite || last >= points.size)
   {
     std::vector<TriangleOfActor> kept;
     std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(kept), hasPoints);

@@ -118,6 +118,7 @@ MakeRenderer(const Scene & scene, const RenderSettings & settings)
 {
   auto renderer = vtkSmartPointer<vtkRenderer>::New();
   renderer->GetCullers()->RemoveAllItems();
+  renderer->SetActiveCamera(vtkNew<vtkCamera>()); // one of VTK's own would be fitted to all actors, which takes time
   for (const SceneSurface & item : scene.surfaces)
   {
     renderer->AddActor(MakeSurfaceActor(item, scene.cuts));
