@@ -17,6 +17,10 @@ class vtkRhombicTranslucentPass;
  * own, physically based interpolation or a matrix that can't be inverted, subclasses of vtkActor, assemblies, image
  * slices.
  *
+ * Of surfaces in one place that one is seen whose mapper has the smallest units of relative polygon offset
+ * (vtkMapper::SetRelativeCoincidentTopologyPolygonOffsetParameters()); other settings of coincident topology have no
+ * effect.
+ *
  * The surfaces are hidden by what the framebuffer holds in front of them. Colours and depths end in the framebuffer, so
  * that other passes may follow. Triangles are uploaded when the polydata, the mapped scalars or the property have
  * changed, and kept between pictures. During a hardware selection OtherPass draws all props.

@@ -27,7 +27,8 @@ namespace rhombic
 namespace
 {
 
-/** In OpenGL's depths, -1 to 1: some times the rounding errors of 32 bits, less than 0.001 mm in 500 mm. */
+/** Of a unit of polygon offset, in OpenGL's depths, -1 to 1: some times the rounding errors of 32 bits, less than 0.001
+ * mm in 500 mm. */
 constexpr float BackwardStep = 2e-6f;
 
 /** Numbers of actors in a byte, from 1; 0 is the background. */
@@ -342,8 +343,10 @@ ActorBuffers::SetUniforms(const Drawing & drawing, vtkTextureObject * depthBefor
   program->SetUniformMatrix4x4("viewFromCentred", const_cast<float *>(matrices.viewFromCentred.data()));
   program->SetUniformMatrix3x3("viewFromNormal", const_cast<float *>(matrices.viewFromNormal.data()));
   const bool isPicture = drawing.program.isPicture;
-  program->SetUniformf(
-    "backward", isPicture ? 0.0f : BackwardStep * static_cast<float>(std::min<std::size_t>(drawing.number, 100)));
+  double factor = 0.0;
+  double units = 0.0;
+  drawing.actor->GetMapper()->GetRelativeCoincidentTopologyPolygonOffsetParameters(factor, units);
+  program->SetUniformf("backward", BackwardStep * static_cast<float>(units));
   if (depthBefore)
   {
     program->SetUniformi("depthBefore", depthBefore->GetTextureUnit());

@@ -46,8 +46,7 @@ struct ActorLook
 class ActorBuffers
 {
 public:
-  /** The actors of one picture, in the order of the renderer: of several in one place, the first is seen. Uploads what
-   * has changed, and forgets actors that the renderer has no more. */
+  /** The actors of one picture. Uploads what has changed, and forgets actors that the renderer has no more. */
   void
   SetActors(const std::vector<vtkActor *> & actors, const CameraMatrices & camera, const ActorLook & look);
 

@@ -41,11 +41,13 @@ IsCut(const SceneSurface & item, const ClipPlane & cut)
 }
 
 vtkSmartPointer<vtkActor>
-MakeSurfaceActor(const SceneSurface & item, const std::vector<ClipPlane> & cuts)
+MakeSurfaceActor(const SceneSurface & item, std::size_t number, const std::vector<ClipPlane> & cuts)
 {
   const vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(SurfaceToPolyData(item.surface));
   mapper->ScalarVisibilityOff();
+  const auto backward = static_cast<double>(std::min<std::size_t>(number, 100)); // so that the first is seen
+  mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, backward);
   for (const ClipPlane & cut : cuts)
   {
     if (IsCut(item, cut))
@@ -119,9 +121,9 @@ MakeRenderer(const Scene & scene, const RenderSettings & settings)
   auto renderer = vtkSmartPointer<vtkRenderer>::New();
   renderer->GetCullers()->RemoveAllItems();
   renderer->SetActiveCamera(vtkNew<vtkCamera>()); // one of VTK's own would be fitted to all actors, which takes time
-  for (const SceneSurface & item : scene.surfaces)
+  for (std::size_t number = 0; number < scene.surfaces.size(); ++number)
   {
-    renderer->AddActor(MakeSurfaceActor(item, scene.cuts));
+    renderer->AddActor(MakeSurfaceActor(scene.surfaces[number], number, scene.cuts));
   }
   for (const ScenePlane & plane : scene.planes)
   {
