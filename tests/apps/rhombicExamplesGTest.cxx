@@ -1,3 +1,4 @@
+#include "rhombicPictureIO.h"
 #include "rhombicProgram.h"
 
 #include "itkEuler3DTransform.h"
@@ -113,6 +114,48 @@ TEST_F(Examples, ShrinkScanReadsEachFormatAndWritesNothingAboutThePatient)
   }
   const Outcome outcome = rhombictest::RunShell("ShrinkScan missing 4 small.mha", m_Folder.Path());
   EXPECT_EQ(outcome.exitCode, 1);
+}
+
+TEST_F(Examples, DrawInVTKDrawsTheSameOnBothSides)
+{
+  Run("DrawInVTK picture.png");
+  const rhombic::Picture picture = rhombic::ReadPicture(m_Folder.Path() / "picture.png");
+  ASSERT_EQ(picture.width, 800);
+  int others = 0;
+  int balls = 0;
+  for (int y = 0; y < picture.height; ++y)
+  {
+    for (int x = 0; x < 400; ++x)
+    {
+      const auto * const ours = picture.At(x, y);
+      const auto * const theirs = picture.At(x + 400, y);
+      others += std::abs(ours[0] - theirs[0]) + std::abs(ours[1] - theirs[1]) + std::abs(ours[2] - theirs[2]) > 12;
+      balls += theirs[1] < 200;
+    }
+  }
+  EXPECT_GT(balls, 30000);
+  EXPECT_LT(others, 6000); // edges and cavities, which are smooth and dark on the left
+}
+
+TEST_F(Examples, SliceInSurfaceShowsSurfaceSliceAndAxes)
+{
+  Run("SliceInSurface " + phantom + "/dicom 300 picture.png");
+  const rhombic::Picture picture = rhombic::ReadPicture(m_Folder.Path() / "picture.png");
+  int bone = 0;
+  int slice = 0;
+  int axes = 0;
+  for (std::size_t n = 0; n < picture.pixels.size(); n += static_cast<std::size_t>(picture.channels))
+  {
+    const int red = picture.pixels[n];
+    const int green = picture.pixels[n + 1];
+    const int blue = picture.pixels[n + 2];
+    bone += red > green && green > blue && red - blue > 30 && green > 40;
+    slice += red == green && green == blue && red > 100 && red < 180;
+    axes += red > 150 && green < 60 && blue < 60;
+  }
+  EXPECT_GT(bone, 10000);
+  EXPECT_GT(slice, 5000);
+  EXPECT_GT(axes, 30);
 }
 
 TEST_F(Examples, SlicesAreWhereTheScanSaysOrRefused)

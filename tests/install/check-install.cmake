@@ -44,6 +44,10 @@ message("ResampleAndSave: ${output}")
 run("${WORK}/examples/ShrinkScan" "${SCAN}" 4 "${WORK}/small.mha")
 run("${WORK}/prefix/bin/rhombic" info "${WORK}/small.mha")
 
+run("${WORK}/examples/DrawInVTK" "${WORK}/balls.png")
+file(SIZE "${WORK}/balls.png" size)
+message("DrawInVTK: ${size} bytes")
+
 # The program of the map, as it stands there.
 file(READ "${WORK}/prefix/share/doc/librhombic-dev/modules/README.md" map)
 foreach(pair cmake/CMakeLists.txt cpp/bone.cxx)

@@ -80,6 +80,12 @@ public:
   void
   PopContext() override;
 
+  /** Reports an error of OpenGL, whose context is current, as an error of VTK. Throws std::bad_alloc if memory has run
+   * out.
+   */
+  void
+  CheckErrors();
+
   /** The part of GLEW's work that needs no display. */
   void
   OpenGLInitContext() override;

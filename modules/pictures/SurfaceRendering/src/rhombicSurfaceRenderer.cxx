@@ -11,6 +11,7 @@
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
 #include <vtkRenderer.h>
+#include <vtkTextureObject.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
@@ -18,8 +19,6 @@
 #include <new>
 #include <sstream>
 #include <thread>
-
-#include <vtk_glew.h>
 
 namespace rhombic
 {
@@ -90,18 +89,13 @@ public:
 
   /** Throws std::bad_alloc, or Failure(Display), if OpenGL or VTK has reported an error. */
   void
-  CheckErrors() const
+  CheckErrors(vtkRhombicHeadlessRenderWindow * window) const
   {
-    const GLenum error = glGetError();
-    if (error == GL_OUT_OF_MEMORY)
-    {
-      throw std::bad_alloc();
-    }
-    const std::string & message = m_Window->m_FirstError;
-    if (error != GL_NO_ERROR || !message.empty())
+    window->CheckErrors();
+    if (const std::string & message = m_Window->m_FirstError; !message.empty())
     {
       throw Failure(FailureKind::Display,
-                    "Drawing failed: " + (message.empty() ? "OpenGL error " + std::to_string(error) : message) +
+                    "Drawing failed: " + message +
                       "; try a smaller picture (rhombic doctor lists the ways to draw on this machine).");
     }
   }
@@ -135,7 +129,7 @@ public:
       throw Failure(FailureKind::Display, m_Window->GetOpenGLSupportMessage());
     }
     const auto current = MakeCurrent(m_Window);
-    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largestSide);
+    largestSide = vtkTextureObject::GetMaximumTextureSize(m_Window);
   }
 
   ~Canvas()
@@ -153,7 +147,7 @@ public:
   {
     const CaughtMessages messages;
     const auto current = MakeCurrent(m_Window);
-    messages.CheckErrors();
+    messages.CheckErrors(m_Window);
     const auto renderer = MakeRenderer(scene, settings);
     m_Window->AddRenderer(renderer);
     std::vector<RenderedView> rendered;
@@ -164,7 +158,7 @@ public:
       m_Window->Render();
       rendered.push_back(
         { ReadPicture(settings), settings.perspective ? std::nullopt : std::optional(camera.ToProjection()) });
-      messages.CheckErrors();
+      messages.CheckErrors(m_Window);
     }
     m_Window->RemoveRenderer(renderer);
     return rendered;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <new>
 #include <sstream>
 
 #include <vtkAutoInit.h>
@@ -444,6 +445,20 @@ void
 vtkRhombicHeadlessRenderWindow::PopContext()
 {
   this->Internals->Callers.pop_back();
+}
+
+void
+vtkRhombicHeadlessRenderWindow::CheckErrors()
+{
+  const GLenum error = glGetError();
+  if (error == GL_OUT_OF_MEMORY)
+  {
+    throw std::bad_alloc();
+  }
+  if (error != GL_NO_ERROR)
+  {
+    vtkErrorMacro("OpenGL error " << error);
+  }
 }
 
 void
