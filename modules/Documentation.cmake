@@ -27,6 +27,7 @@ set(DOXYGEN_PREDEFINED
     "ITKv5_CONST=const"
     "ITK_DISALLOW_COPY_AND_MOVE(type)="
     "itkNewMacro(type)=static Pointer New()\;"
+    "itkFactorylessNewMacro(type)=static Pointer New()\;"
     "itkTypeMacro(type,base)="
     "itkSetMacro(name,type)=virtual void Set##name(type name)\;"
     "itkGetConstMacro(name,type)=virtual type Get##name() const\;"
@@ -39,6 +40,14 @@ set(DOXYGEN_PREDEFINED
     "itkGetStringMacro(name)=virtual const char * Get##name() const\;"
     "itkSetInputMacro(name,type)=virtual void Set##name(const type * input)\;"
     "itkGetInputMacro(name,type)=virtual const type * Get##name() const\;"
+    "vtkTypeMacro(type,base)="
+    "vtkSetMacro(name,type)=virtual void Set##name(type name)\;"
+    "vtkGetMacro(name,type)=virtual type Get##name()\;"
+    "vtkSetClampMacro(name,type,lowest,highest)=virtual void Set##name(type name)\;"
+    "vtkBooleanMacro(name,type)=virtual void name##On()\; virtual void name##Off()\;"
+    "vtkSetEnumMacro(name,type)=virtual void Set##name(type name)\;"
+    "vtkGetEnumMacro(name,type)=virtual type Get##name()\;"
+    "vtkGetObjectMacro(name,type)=virtual type * Get##name()\;"
     "RHOMBIC_INSTANTIATE(declaration,image)=")
 file(GLOB pages README.md apps/*/*.md modules/README.md modules/*/*/README.md pipelines/README.md pipelines/*/*.md tests/README.md
      tests/*/README.md testdata/README.md)

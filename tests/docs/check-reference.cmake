@@ -1,4 +1,4 @@
-# Fails if Doxygen warned, or took a macro of ITK's for a function: modules/Documentation.cmake tells it what they make.
+# Fails if Doxygen warned, or took a macro of ITK's or VTK's for a function: modules/Documentation.cmake tells it what they make.
 # Classes, functions and enumerations must be documented; left out are functions that ITK's conventions or the standard
 # library's name (overrides, constructors, operators, New(), what containers and allocators have), accessors and
 # predicates (Get, Is, Has), aliases and variables.
@@ -27,7 +27,7 @@ endif()
 set(macros "")
 foreach(page IN LISTS pages)
   file(READ "${page}" text)
-  string(REGEX MATCHALL "itk[A-Za-z]+Macro" names "${text}")
+  string(REGEX MATCHALL "(itk|vtk)[A-Za-z]+Macro" names "${text}")
   list(APPEND macros ${names})
 endforeach()
 list(REMOVE_DUPLICATES macros)

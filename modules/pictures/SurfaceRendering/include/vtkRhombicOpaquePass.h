@@ -47,6 +47,7 @@ public:
   void
   ReleaseGraphicsResources(vtkWindow * window) override;
 
+  /** Lights of surfaces. */
   enum LightType
   {
     RendererLights, ///< the lights of the vtkRenderer
