@@ -334,7 +334,7 @@ TEST_F(RenderCommand, BadRequestsAreRefusedInOneSentenceAndLeaveNothing)
          { "--focus bon", 2, "did you mean bone?" },
          { "--cut axial --uncut bon", 2, "did you mean bone?" },
          { "--slice axial=bon", 2, "did you mean bone?" },
-         { "--turntable 720 --size 4000 --max-memory 1G", 9, "--size" },
+         { "--turntable 720 --size 3000 --max-memory 1G", 9, "--size" },
          { "--sheet --dpi 600 --max-memory 100M", 9, "--dpi" },
        })
   {
