@@ -121,19 +121,20 @@ IsColouredByScalars(vtkActor * actor)
 
 /** The box around the corners of a transformed box. */
 itk::PointBox
-BoxInWorld(const itk::PointBox & box, vtkMatrix4x4 * worldFromModel)
+BoxInWorld(const itk::PointBox & box, const CameraMatrices::Matrix & worldFromModel)
 {
   constexpr float largest = std::numeric_limits<float>::max();
   itk::PointBox around{ { largest, largest, largest }, { -largest, -largest, -largest } };
   for (unsigned int corner = 0; corner < 8; ++corner)
   {
-    std::array<float, 4> point{ 0.0f, 0.0f, 0.0f, 1.0f };
+    std::array<double, 4> point{ 0.0, 0.0, 0.0, 1.0 };
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
       point[axis] = (corner >> axis & 1U) != 0 ? box.highest[axis] : box.lowest[axis];
     }
-    worldFromModel->MultiplyPoint(point.data(), point.data());
-    around.Add(PointOfActor{ point[0], point[1], point[2] });
+    vtkMatrix4x4::MultiplyPoint(worldFromModel.data(), point.data(), point.data());
+    around.Add(
+      PointOfActor{ static_cast<float>(point[0]), static_cast<float>(point[1]), static_cast<float>(point[2]) });
   }
   return around;
 }
@@ -181,6 +182,7 @@ ActorBuffers::Upload(vtkActor * actor)
   buffers.indices =
     UploadValues(ordered.triangles.data(), ordered.triangles.size(), vtkOpenGLBufferObject::ElementArrayBuffer);
   buffers.cells = std::move(ordered.cells);
+  buffers.origin = triangles.origin;
   buffers.box = triangles.box;
   buffers.areClosed = !isTranslucent && triangles.AreClosed();
   buffers.meanEdge = triangles.MeanEdge();
@@ -200,7 +202,7 @@ ActorBuffers::Describe(vtkActor * actor, Buffers & buffers, std::size_t number, 
 {
   vtkPlaneCollection * const planes = actor->GetMapper()->GetClippingPlanes();
   vtkProperty * const property = actor->GetProperty();
-  Drawing drawing{ actor, &buffers, { camera, actor->GetMatrix() }, {}, number, false, false };
+  Drawing drawing{ actor, &buffers, { camera, actor->GetMatrix(), buffers.origin }, {}, number, false, false };
   SurfaceProgram & program = drawing.program;
   program.isPicture = buffers.picture != nullptr;
   program.isSmooth = buffers.normals != nullptr && !program.isPicture;
@@ -211,8 +213,9 @@ ActorBuffers::Describe(vtkActor * actor, Buffers & buffers, std::size_t number, 
   // Far walls of a translucent surface would hide detail inside.
   const bool showsNearWallsOnly = program.isTranslucent && !program.isPicture && m_Look.light == SurfaceLight::Own;
   const bool hasHiddenBacks = !program.isTranslucent && program.cuts == 0 && buffers.areClosed;
-  drawing.hidesBacks = property->GetBackfaceCulling() || showsNearWallsOnly || hasHiddenBacks;
-  drawing.hidesFronts = property->GetFrontfaceCulling() != 0;
+  const bool showsBacksOnly = property->GetFrontfaceCulling() && !property->GetBackfaceCulling(); // as VTK
+  drawing.hidesBacks = !showsBacksOnly && (property->GetBackfaceCulling() || showsNearWallsOnly || hasHiddenBacks);
+  drawing.hidesFronts = showsBacksOnly;
   return drawing;
 }
 
@@ -299,7 +302,7 @@ ActorBuffers::MeanSide() const
   {
     if (!drawing.program.isPicture)
     {
-      around.Add(BoxInWorld(drawing.buffers->box, drawing.actor->GetMatrix()));
+      around.Add(BoxInWorld(drawing.buffers->box, drawing.matrices.worldFromModel));
     }
   }
   double sum = 0.0;
@@ -357,7 +360,8 @@ ActorBuffers::SetUniforms(const Drawing & drawing, vtkTextureObject * depthBefor
     program->SetUniform4fv("cuts", drawing.program.cuts, equations.data());
   }
   vtkProperty * const front = drawing.actor->GetProperty();
-  vtkProperty * const back = drawing.actor->GetBackfaceProperty() ? drawing.actor->GetBackfaceProperty() : front;
+  const bool hasBack = drawing.actor->GetBackfaceProperty() && !drawing.program.hasColours; // as VTK
+  vtkProperty * const back = hasBack ? drawing.actor->GetBackfaceProperty() : front;
   if (isPicture)
   {
     program->SetUniformi("picture", drawing.buffers->picture->GetTextureUnit());
@@ -479,9 +483,7 @@ ActorBuffers::Draw(const Drawing & drawing, vtkTextureObject * depthBefore, cons
   SetUniforms(drawing, depthBefore, program);
   vtkOpenGLState * const state = m_Window->GetState();
   state->SetEnumState(GL_CULL_FACE, drawing.hidesBacks || drawing.hidesFronts);
-  state->vtkglCullFace(drawing.hidesBacks && drawing.hidesFronts ? GL_FRONT_AND_BACK
-                       : drawing.hidesBacks                      ? GL_BACK
-                                                                 : GL_FRONT);
+  state->vtkglCullFace(drawing.hidesBacks ? GL_BACK : GL_FRONT);
   glFrontFace(drawing.matrices.scale < 0.0 ? GL_CW : GL_CCW);
   const auto setCuts = [&drawing](auto && function) {
     for (int n = 0; n < drawing.program.cuts; ++n)

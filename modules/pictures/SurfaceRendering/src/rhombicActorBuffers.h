@@ -90,6 +90,7 @@ private:
     vtkShaderProgram * program = nullptr;               ///< of the arrays
     vtkSmartPointer<vtkTextureObject> picture;
     std::vector<TriangleCell> cells;
+    Vector3 origin{}; ///< of the coordinates of points
     itk::PointBox box{};
     bool areClosed = false; ///< only of opaque actors
     double meanEdge = 0.0;  ///< length

@@ -14,10 +14,10 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
+#include <vtkPolygon.h>
 #include <vtkProperty.h>
 #include <vtkShaderProperty.h>
 #include <vtkTexture.h>
-#include <vtkTriangleFilter.h>
 #include <vtkTypeInt32Array.h>
 #include <vtkUnsignedCharArray.h>
 
@@ -83,13 +83,112 @@ CanBeInverted(vtkMatrix4x4 * matrix)
          std::abs(matrix->Determinant()) > 1e-30;
 }
 
-/** The values of a double or float array of points as 32 bits. */
+/** The values of an array, less an origin, as 32 bits. */
 PointOfActor
-TupleOf(vtkDataArray * array, vtkIdType n)
+TupleOf(vtkDataArray * array, vtkIdType n, const Vector3 & origin = {})
 {
-  std::array<double, 3> tuple{};
+  Vector3 tuple{};
   array->GetTuple(n, tuple.data());
-  return { static_cast<float>(tuple[0]), static_cast<float>(tuple[1]), static_cast<float>(tuple[2]) };
+  const Vector3 rest = Subtract(tuple, origin);
+  return { static_cast<float>(rest[0]), static_cast<float>(rest[1]), static_cast<float>(rest[2]) };
+}
+
+/** The first of points of 64 bits, so that what is far from 0 stays exact in 32 bits; 0 for points of 32 bits. */
+Vector3
+OriginOf(vtkDataArray * points)
+{
+  Vector3 first{};
+  if (points->GetDataTypeSize() > 4 && points->GetNumberOfTuples() > 0 && IsFinite(TupleOf(points, 0)))
+  {
+    points->GetTuple(0, first.data());
+  }
+  return first;
+}
+
+/** A triangle of a polygon or strip of polydata, by the indices of points. */
+struct TriangleOfCell
+{
+  std::array<vtkIdType, 3> corners;
+  vtkIdType cell;
+};
+
+/** Whether the triangles from the first corner of a polygon to all others lie beside each other. */
+bool
+IsFan(vtkIdList * corners, vtkPoints * points)
+{
+  const auto cornerAt = [&](vtkIdType n) {
+    Vector3 corner;
+    points->GetPoint(corners->GetId(n), corner.data());
+    return corner;
+  };
+  const Vector3 first = cornerAt(0);
+  std::vector<Vector3> normals;
+  Vector3 sum{};
+  for (vtkIdType n = 2; n < corners->GetNumberOfIds(); ++n)
+  {
+    normals.push_back(Cross(Subtract(cornerAt(n - 1), first), Subtract(cornerAt(n), first)));
+    sum = Add(sum, normals.back());
+  }
+  return std::none_of(
+    normals.begin(), normals.end(), [&sum](const Vector3 & normal) { return Dot(normal, sum) < 0.0; });
+}
+
+/** The corners of a polygon's triangles, one after the other: from the first corner to all others, as VTK's mapper
+ * draws them, unless the polygon has notches. */
+void
+TriangulatePolygon(vtkIdList * corners, vtkPoints * points, vtkIdList * triangles)
+{
+  triangles->Reset();
+  const vtkIdType count = corners->GetNumberOfIds();
+  if (count > 3 && !IsFan(corners, points))
+  {
+    const vtkNew<vtkPolygon> polygon;
+    polygon->Initialize(static_cast<int>(count), corners->GetPointer(0), points);
+    if (polygon->Triangulate(triangles))
+    {
+      for (vtkIdType n = 0; n < triangles->GetNumberOfIds(); ++n)
+      {
+        triangles->SetId(n, corners->GetId(triangles->GetId(n)));
+      }
+      return;
+    }
+    triangles->Reset();
+  }
+  for (vtkIdType n = 2; n < count; ++n)
+  {
+    triangles->InsertNextId(corners->GetId(0));
+    triangles->InsertNextId(corners->GetId(n - 1));
+    triangles->InsertNextId(corners->GetId(n));
+  }
+}
+
+std::vector<TriangleOfCell>
+TrianglesOf(vtkPolyData * polyData)
+{
+  std::vector<TriangleOfCell> triangles;
+  const vtkNew<vtkIdList> corners;
+  const vtkNew<vtkIdList> ofPolygon;
+  const vtkIdType polygons = polyData->GetNumberOfPolys();
+  for (vtkIdType cell = 0; cell < polygons; ++cell)
+  {
+    polyData->GetPolys()->GetCellAtId(cell, corners);
+    TriangulatePolygon(corners, polyData->GetPoints(), ofPolygon);
+    for (vtkIdType n = 2; n < ofPolygon->GetNumberOfIds(); n += 3)
+    {
+      triangles.push_back({ { ofPolygon->GetId(n - 2), ofPolygon->GetId(n - 1), ofPolygon->GetId(n) }, cell });
+    }
+  }
+  for (vtkIdType strip = 0; strip < polyData->GetNumberOfStrips(); ++strip)
+  {
+    polyData->GetStrips()->GetCellAtId(strip, corners);
+    for (vtkIdType n = 2; n < corners->GetNumberOfIds(); ++n)
+    {
+      const vtkIdType turned = n % 2; // every second triangle runs the other way round
+      triangles.push_back(
+        { { corners->GetId(n - 2 + turned), corners->GetId(n - 1 - turned), corners->GetId(n) }, polygons + strip });
+    }
+  }
+  return triangles;
 }
 
 template <typename TValue>
@@ -116,25 +215,10 @@ ActorTriangles::ActorTriangles(vtkActor * actor, bool withColours, bool isFlat)
   int colouredBy = 0;
   vtkPolyData * const input = mapper->GetInput();
   vtkUnsignedCharArray * const mapped = withColours ? mapper->MapScalars(input, 1.0, colouredBy) : nullptr;
-  if (!mapped && TakeArrays(input, isFlat))
+  if (mapped || !TakeArrays(input, isFlat))
   {
-    KeepTrianglesWithPoints();
-    return;
+    CopyArrays(input, isFlat, mapped, colouredBy != 0);
   }
-  vtkNew<vtkPolyData> coloured;
-  coloured->ShallowCopy(input);
-  if (mapped)
-  {
-    vtkDataSetAttributes * const data =
-      colouredBy == 0 ? static_cast<vtkDataSetAttributes *>(coloured->GetPointData()) : coloured->GetCellData();
-    data->SetScalars(mapped);
-  }
-  vtkNew<vtkTriangleFilter> filter;
-  filter->SetInputData(coloured);
-  filter->PassVertsOff();
-  filter->PassLinesOff();
-  filter->Update();
-  CopyArrays(filter->GetOutput(), isFlat, mapped != nullptr);
   KeepTrianglesWithPoints();
 }
 
@@ -146,7 +230,7 @@ ActorTriangles::TakeArrays(vtkPolyData * polyData, bool isFlat)
   vtkDataArray * const given = isFlat ? nullptr : polyData->GetPointData()->GetNormals();
   auto * const directions = vtkFloatArray::SafeDownCast(given);
   vtkDataArray * const places = polyData->GetPointData()->GetTCoords();
-  const bool hasNormalsOfCells = !isFlat && !given && polyData->GetCellData()->GetNormals();
+  const bool hasNormalsOfCells = !given && polyData->GetCellData()->GetNormals();
   if (polyData->GetNumberOfStrips() > 0 || polygons->IsStorage64Bit() || polygons->IsHomogeneous() != 3 || !positions ||
       (given && !directions) || places || hasNormalsOfCells)
   {
@@ -162,27 +246,24 @@ ActorTriangles::TakeArrays(vtkPolyData * polyData, bool isFlat)
 }
 
 void
-ActorTriangles::CopyArrays(vtkPolyData * polyData, bool isFlat, bool hasColours)
+ActorTriangles::CopyArrays(vtkPolyData * polyData, bool isFlat, vtkUnsignedCharArray * mapped, bool areOfCells)
 {
-  vtkPointData * const ofPoints = polyData->GetPointData();
-  vtkCellData * const ofCells = polyData->GetCellData();
-  vtkDataArray * const pointNormals = isFlat ? nullptr : ofPoints->GetNormals();
-  vtkDataArray * const cellNormals = isFlat || pointNormals ? nullptr : ofCells->GetNormals();
-  vtkDataArray * const places = ofPoints->GetTCoords();
-  auto * const pointColours = vtkUnsignedCharArray::SafeDownCast(hasColours ? ofPoints->GetScalars() : nullptr);
-  auto * const cellColours = vtkUnsignedCharArray::SafeDownCast(hasColours ? ofCells->GetScalars() : nullptr);
-  const bool repeats = cellNormals || (cellColours && !pointColours);
+  vtkDataArray * const positions = polyData->GetPoints()->GetData();
+  vtkDataArray * const pointNormals = isFlat ? nullptr : polyData->GetPointData()->GetNormals();
+  vtkDataArray * const cellNormals = pointNormals ? nullptr : polyData->GetCellData()->GetNormals();
+  vtkDataArray * const places = polyData->GetPointData()->GetTCoords();
+  const bool repeats = cellNormals || (mapped && areOfCells);
+  origin = OriginOf(positions);
   const auto addPoint = [&](vtkIdType point, vtkIdType cell) {
-    m_Points.push_back(TupleOf(polyData->GetPoints()->GetData(), point));
+    m_Points.push_back(TupleOf(positions, point, origin));
     if (pointNormals || cellNormals)
     {
       m_Normals.push_back(pointNormals ? TupleOf(pointNormals, point) : TupleOf(cellNormals, cell));
     }
-    if (pointColours || cellColours)
+    if (mapped)
     {
       m_Colours.emplace_back();
-      vtkUnsignedCharArray * const colour = pointColours ? pointColours : cellColours;
-      colour->GetTypedTuple(pointColours ? point : cell, m_Colours.back().data());
+      mapped->GetTypedTuple(areOfCells ? cell : point, m_Colours.back().data());
     }
     if (places)
     {
@@ -194,18 +275,15 @@ ActorTriangles::CopyArrays(vtkPolyData * polyData, bool isFlat, bool hasColours)
   {
     addPoint(point, 0);
   }
-  vtkNew<vtkIdList> corners;
-  for (vtkIdType cell = 0; cell < polyData->GetNumberOfPolys(); ++cell)
+  for (const auto & [corners, cell] : TrianglesOf(polyData))
   {
-    polyData->GetPolys()->GetCellAtId(cell, corners);
     TriangleOfActor triangle{};
-    for (int k = 0; k < 3; ++k)
+    for (std::size_t k = 0; k < 3; ++k)
     {
-      triangle[static_cast<std::size_t>(k)] =
-        static_cast<std::uint32_t>(repeats ? static_cast<vtkIdType>(m_Points.size()) : corners->GetId(k));
+      triangle[k] = static_cast<std::uint32_t>(repeats ? static_cast<vtkIdType>(m_Points.size()) : corners[k]);
       if (repeats)
       {
-        addPoint(corners->GetId(k), cell);
+        addPoint(corners[k], cell);
       }
     }
     m_Triangles.push_back(triangle);

@@ -2,6 +2,7 @@
 #define rhombicActorTriangles_h
 
 #include "itkPointBox.h"
+#include "rhombicVector3.h"
 
 #include <vtkSmartPointer.h>
 
@@ -13,6 +14,7 @@ class vtkActor;
 class vtkImageData;
 class vtkPolyData;
 class vtkProp;
+class vtkUnsignedCharArray;
 
 namespace rhombic
 {
@@ -54,9 +56,10 @@ public:
   /** Polygons and strips become triangles. Points that have several normals or colours, of their cells, are repeated.
    * The polydata of the actor's mapper is up to date, see CanDraw().
    * \param withColours whether the mapper's scalars colour the actor
-   * \param isFlat whether normals are left out */
+   * \param isFlat whether normals of points are left out */
   ActorTriangles(vtkActor * actor, bool withColours, bool isFlat);
 
+  Vector3 origin{}; ///< of the coordinates of points
   ArrayView<PointOfActor> points;
   ArrayView<PointOfActor> normals;                  ///< for each point; empty: faceted
   ArrayView<std::array<std::uint8_t, 4>> colours;   ///< for each point, red to alpha; empty: those of the property
@@ -77,7 +80,7 @@ private:
   bool
   TakeArrays(vtkPolyData * polyData, bool isFlat);
   void
-  CopyArrays(vtkPolyData * polyData, bool isFlat, bool hasColours);
+  CopyArrays(vtkPolyData * polyData, bool isFlat, vtkUnsignedCharArray * mapped, bool areOfCells);
   void
   KeepTrianglesWithPoints();
 

@@ -30,6 +30,12 @@ Product(const Matrix & a, const Matrix & b)
   return product;
 }
 
+Matrix
+Translation(const Vector3 & way)
+{
+  return { 1, 0, 0, way[0], 0, 1, 0, way[1], 0, 0, 1, way[2], 0, 0, 0, 1 };
+}
+
 std::array<float, 16>
 ByColumns(const Matrix & matrix)
 {
@@ -83,26 +89,24 @@ CameraMatrices::CameraMatrices(vtkRenderer * renderer, int targetWidth, int targ
   pixelSize = 2.0 * w / (height * clipFromView[5]);
 }
 
-ActorMatrices::ActorMatrices(const CameraMatrices & camera, vtkMatrix4x4 * worldFromModel)
+ActorMatrices::ActorMatrices(const CameraMatrices & camera, vtkMatrix4x4 * worldFromActor, const Vector3 & origin)
+  : worldFromModel(Product(ValuesOf(worldFromActor), Translation(origin)))
 {
-  const Matrix model = ValuesOf(worldFromModel);
   Matrix modelFromWorld;
-  vtkMatrix4x4::Invert(model.data(), modelFromWorld.data());
+  vtkMatrix4x4::Invert(worldFromModel.data(), modelFromWorld.data());
   const std::array<double, 4> focalPoint{ camera.focalPoint[0], camera.focalPoint[1], camera.focalPoint[2], 1.0 };
   std::array<double, 4> centreOfModel;
   vtkMatrix4x4::MultiplyPoint(modelFromWorld.data(), focalPoint.data(), centreOfModel.data());
-  Matrix modelFromCentred{ 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 };
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     centre[axis] = static_cast<float>(centreOfModel[axis]);
-    modelFromCentred[4 * axis + 3] = static_cast<double>(centre[axis]);
   }
-  worldFromCentred = Product(model, modelFromCentred);
+  worldFromCentred = Product(worldFromModel, Translation({ centre[0], centre[1], centre[2] }));
   const Matrix view = Product(camera.viewFromWorld, worldFromCentred);
   clipFromCentred = ByColumns(Product(camera.clipFromView, view));
   viewFromCentred = ByColumns(view);
   viewFromNormal = ForNormals(view);
-  scale = std::cbrt(worldFromModel->Determinant());
+  scale = std::cbrt(worldFromActor->Determinant());
 }
 
 } // namespace rhombic

@@ -41,10 +41,12 @@ struct CameraMatrices
  * in 32 bits. */
 struct ActorMatrices
 {
-  /** \a worldFromModel must be invertible. */
-  ActorMatrices(const CameraMatrices & camera, vtkMatrix4x4 * worldFromModel);
+  /** \param worldFromActor must be invertible
+   * \param origin of the model's coordinates, in those of the actor */
+  ActorMatrices(const CameraMatrices & camera, vtkMatrix4x4 * worldFromActor, const Vector3 & origin);
 
-  std::array<float, 3> centre;           ///< the focal point in the actor's coordinates
+  CameraMatrices::Matrix worldFromModel;
+  std::array<float, 3> centre;           ///< the focal point in the model's coordinates
   std::array<float, 16> clipFromCentred; ///< column by column
   std::array<float, 16> viewFromCentred; ///< column by column
   std::array<float, 9> viewFromNormal;   ///< column by column; x right, y up, z towards the viewer
