@@ -12,7 +12,8 @@ class vtkRhombicOpaquePass;
  *     renderer->SetPass(vtkNew<vtkRhombicSurfacePass>());
  *
  * The steps are those of vtkRenderStepsPass: camera, lights, opaque and translucent props, volumes, overlays. What the
- * two passes of Rhombic do not draw is drawn by VTK's own, see their classes.
+ * two passes of Rhombic do not draw is drawn by VTK's own, see their classes. A vtkHardwareSelector selects as in a
+ * renderer without passes (by vtkRenderStepsPass it selects nothing).
  */
 class vtkRhombicSurfacePass : public vtkRenderStepsPass
 {
@@ -20,6 +21,9 @@ public:
   static vtkRhombicSurfacePass *
   New();
   vtkTypeMacro(vtkRhombicSurfacePass, vtkRenderStepsPass);
+
+  void
+  Render(const vtkRenderState * state) override;
 
   /** The pass with the settings of this one: lights, samples, ambient occlusion, silhouettes. */
   vtkRhombicOpaquePass *

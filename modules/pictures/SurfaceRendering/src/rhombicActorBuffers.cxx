@@ -101,12 +101,6 @@ UploadValues(const TValues & values, std::size_t size, vtkOpenGLBufferObject::Ob
 }
 
 bool
-IsFlat(vtkActor * actor)
-{
-  return actor->GetProperty()->GetInterpolation() == VTK_FLAT;
-}
-
-bool
 IsColouredByScalars(vtkActor * actor)
 {
   vtkMapper * const mapper = actor->GetMapper();
@@ -139,36 +133,39 @@ BoxInWorld(const itk::PointBox & box, const CameraMatrices::Matrix & worldFromMo
   return around;
 }
 
-/** The time of the latest change of what is uploaded. */
-vtkMTimeType
-TimeOf(vtkActor * actor)
+} // namespace
+
+ActorBuffers::Source::Source(vtkActor * actor)
+  : mapper(actor->GetMapper())
+  , inputTime(mapper->GetInput()->GetMTime())
+  , coloursTime(IsColouredByScalars(actor) ? mapper->GetMTime() : 0)
+  , isFlat(actor->GetProperty()->GetInterpolation() == VTK_FLAT)
+  , isTranslucent(actor->HasTranslucentPolygonalGeometry() != 0)
 {
-  vtkMapper * const mapper = actor->GetMapper();
-  vtkMTimeType time = mapper->GetInput()->GetMTime();
-  if (IsColouredByScalars(actor))
-  {
-    time = std::max(time, mapper->GetMTime());
-  }
   if (vtkImageData * const picture = PictureOf(actor))
   {
-    time = std::max(time, picture->GetMTime());
+    pictureTime = picture->GetMTime();
   }
-  return time;
 }
 
-} // namespace
+bool
+ActorBuffers::Source::operator==(const Source & other) const
+{
+  return mapper == other.mapper && inputTime == other.inputTime && coloursTime == other.coloursTime &&
+         pictureTime == other.pictureTime && isFlat == other.isFlat && isTranslucent == other.isTranslucent;
+}
 
 ActorBuffers::Buffers &
 ActorBuffers::Upload(vtkActor * actor)
 {
   Buffers & buffers = m_Buffers[actor];
   buffers.isUsed = true;
-  const bool isTranslucent = actor->HasTranslucentPolygonalGeometry() != 0;
-  if (buffers.time == TimeOf(actor) && buffers.isFlat == IsFlat(actor) && buffers.isTranslucent == isTranslucent)
+  const Source source(actor);
+  if (buffers.source == source)
   {
     return buffers;
   }
-  const ActorTriangles triangles(actor, IsColouredByScalars(actor), IsFlat(actor));
+  const ActorTriangles triangles(actor, source.coloursTime > 0, source.isFlat);
   TriangleCells ordered = SortIntoCells(triangles);
   buffers = {};
   buffers.isUsed = true;
@@ -184,16 +181,14 @@ ActorBuffers::Upload(vtkActor * actor)
   buffers.cells = std::move(ordered.cells);
   buffers.origin = triangles.origin;
   buffers.box = triangles.box;
-  buffers.areClosed = !isTranslucent && triangles.AreClosed();
+  buffers.areClosed = !source.isTranslucent && triangles.AreClosed();
   buffers.meanEdge = triangles.MeanEdge();
   buffers.triangles = static_cast<double>(triangles.triangles.size);
   if (vtkImageData * const picture = PictureOf(actor))
   {
     buffers.picture = UploadPicture(picture, m_Window);
   }
-  buffers.isFlat = IsFlat(actor);
-  buffers.isTranslucent = isTranslucent;
-  buffers.time = TimeOf(actor);
+  buffers.source = Source(actor); // mapping scalars may have changed the mapper
   return buffers;
 }
 
@@ -223,12 +218,7 @@ void
 ActorBuffers::SetActors(const std::vector<vtkActor *> & actors, const CameraMatrices & camera, const ActorLook & look)
 {
   m_Look = look;
-  auto * const window = static_cast<vtkOpenGLRenderWindow *>(look.renderer->GetRenderWindow());
-  if (m_Window != window)
-  {
-    Release();
-    m_Window = window;
-  }
+  m_Window = static_cast<vtkOpenGLRenderWindow *>(look.renderer->GetRenderWindow());
   if (m_LightsOfPrograms != look.lights.declarations)
   {
     m_Programs.clear();

@@ -17,6 +17,7 @@
 #include <tuple>
 #include <vector>
 
+class vtkMapper;
 class vtkOpenGLRenderer;
 
 namespace rhombic
@@ -75,12 +76,27 @@ public:
   Release();
 
 private:
+  /** What decides what is uploaded for an actor. Times may become earlier, so they are compared one by one. */
+  struct Source
+  {
+    Source() = default;
+    explicit Source(vtkActor * actor);
+
+    bool
+    operator==(const Source & other) const;
+
+    vtkMapper * mapper = nullptr;
+    vtkMTimeType inputTime = 0;
+    vtkMTimeType coloursTime = 0; ///< of the mapper with its table; 0 without scalars
+    vtkMTimeType pictureTime = 0;
+    bool isFlat = false;
+    bool isTranslucent = false;
+  };
+
   /** The triangles of one actor. */
   struct Buffers
   {
-    vtkMTimeType time = 0; ///< when what was uploaded had changed
-    bool isFlat = false;   ///< and next: what was uploaded
-    bool isTranslucent = false;
+    Source source;                                      ///< of what was uploaded
     vtkSmartPointer<vtkOpenGLBufferObject> points;      ///< and next
     vtkSmartPointer<vtkOpenGLBufferObject> normals;     ///< none when faceted
     vtkSmartPointer<vtkOpenGLBufferObject> colours;     ///< none without scalars

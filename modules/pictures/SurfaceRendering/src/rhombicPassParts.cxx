@@ -1,11 +1,42 @@
 #include "rhombicPassParts.h"
 
 #include <vtkActor.h>
+#include <vtkCommand.h>
 #include <vtkFrameBufferObjectBase.h>
 #include <vtkOpenGLRenderer.h>
 #include <vtkProp.h>
 #include <vtkProperty.h>
 #include <vtkRenderState.h>
+
+vtkRhombicOpaquePass::Parts::~Parts()
+{
+  Release();
+}
+
+void
+vtkRhombicOpaquePass::Parts::Use(vtkOpenGLRenderWindow * window)
+{
+  if (m_Window != window)
+  {
+    Release();
+    m_Window = window;
+    m_DeleteObserver = window->AddObserver(vtkCommand::DeleteEvent, this, &Parts::Release);
+  }
+}
+
+void
+vtkRhombicOpaquePass::Parts::Release()
+{
+  if (m_Window)
+  {
+    m_Window->RemoveObserver(m_DeleteObserver);
+    m_Window->PushContext();
+    actors.Release();
+    samples.Release();
+    m_Window->PopContext();
+    m_Window = nullptr;
+  }
+}
 
 namespace rhombic
 {

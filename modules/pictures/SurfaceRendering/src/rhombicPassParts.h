@@ -9,8 +9,27 @@ class vtkRenderState;
 /** What vtkRhombicOpaquePass keeps between pictures, and vtkRhombicTranslucentPass uses. */
 struct vtkRhombicOpaquePass::Parts
 {
+public:
+  Parts() = default;
+  ~Parts();
+  Parts(const Parts &) = delete;
+  Parts &
+  operator=(const Parts &) = delete;
+
+  /** Draws in this window from now on. What another window has is freed. */
+  void
+  Use(vtkOpenGLRenderWindow * window);
+
+  /** Frees what the window has, with the window's context. Called by a window that is deleted. */
+  void
+  Release();
+
   rhombic::ActorBuffers actors;
   rhombic::SamplePasses samples;
+
+private:
+  vtkOpenGLRenderWindow * m_Window = nullptr; // alive, see Release()
+  unsigned long m_DeleteObserver = 0;
 };
 
 namespace rhombic

@@ -35,10 +35,11 @@ vtkRhombicOpaquePass::Render(const vtkRenderState * state)
     return;
   }
   const rhombic::CameraMatrices camera(renderer, viewport.width, viewport.height);
-  auto & [actors, samples] = *this->Internals;
-  actors.SetActors(props.surfaces, camera, rhombic::LookOf(this, renderer));
-  samples.DrawOpaque(actors, camera, rhombic::SamplesOf(this), viewport, window);
-  this->NumberOfRenderedProps += actors.NumberOf(false);
+  Parts & parts = *this->Internals;
+  parts.Use(window);
+  parts.actors.SetActors(props.surfaces, camera, rhombic::LookOf(this, renderer));
+  parts.samples.DrawOpaque(parts.actors, camera, rhombic::SamplesOf(this), viewport, window);
+  this->NumberOfRenderedProps += parts.actors.NumberOf(false);
 }
 
 void
@@ -48,8 +49,7 @@ vtkRhombicOpaquePass::ReleaseGraphicsResources(vtkWindow * window)
   {
     this->OtherPass->ReleaseGraphicsResources(window);
   }
-  this->Internals->actors.Release();
-  this->Internals->samples.Release();
+  this->Internals->Release();
 }
 
 void

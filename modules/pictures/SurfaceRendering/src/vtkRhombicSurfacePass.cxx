@@ -5,6 +5,8 @@
 
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
+#include <vtkRenderState.h>
+#include <vtkRenderer.h>
 
 vtkStandardNewMacro(vtkRhombicSurfacePass);
 
@@ -15,6 +17,21 @@ vtkRhombicSurfacePass::vtkRhombicSurfacePass()
   translucent->SetOpaquePass(opaque);
   this->SetOpaquePass(opaque);
   this->SetTranslucentPass(translucent);
+}
+
+void
+vtkRhombicSurfacePass::Render(const vtkRenderState * state)
+{
+  vtkRenderer * const renderer = state->GetRenderer();
+  if (!renderer->GetSelector())
+  {
+    this->Superclass::Render(state);
+    return;
+  }
+  this->UpdateCamera(renderer);
+  this->UpdateLightGeometry(renderer);
+  this->UpdateLights(renderer);
+  this->UpdateGeometry(renderer, state->GetFrameBuffer());
 }
 
 vtkRhombicOpaquePass *

@@ -40,12 +40,13 @@ vtkRhombicTranslucentPass::Render(const vtkRenderState * state)
   if (!props.surfaces.empty() && viewport.width > 0 && viewport.height > 0)
   {
     const rhombic::CameraMatrices camera(renderer, viewport.width, viewport.height);
-    auto & [actors, samples] = *this->OpaquePass->Internals;
-    actors.SetActors(props.surfaces, camera, rhombic::LookOf(this->OpaquePass, renderer));
-    this->NumberOfRenderedProps = actors.NumberOf(true);
+    vtkRhombicOpaquePass::Parts & parts = *this->OpaquePass->Internals;
+    parts.Use(window);
+    parts.actors.SetActors(props.surfaces, camera, rhombic::LookOf(this->OpaquePass, renderer));
+    this->NumberOfRenderedProps = parts.actors.NumberOf(true);
     if (this->NumberOfRenderedProps > 0)
     {
-      samples.DrawTranslucent(actors, rhombic::SamplesOf(this->OpaquePass), viewport, window);
+      parts.samples.DrawTranslucent(parts.actors, rhombic::SamplesOf(this->OpaquePass), viewport, window);
     }
   }
   this->NumberOfRenderedProps += rhombic::RenderOthers(this->OtherPass, state, props.others);
