@@ -25,8 +25,8 @@ public:
     }
     const double cells =
       std::clamp(std::sqrt(static_cast<double>(actor.triangles.size) / TrianglesPerCell), 1.0, 100.0);
-    const bool hasExtent = longest > 0.0f && std::isfinite(longest);
-    m_CellsPerLength = hasExtent ? static_cast<float>(cells / static_cast<double>(longest)) : 0.0f;
+    const auto cellsPerLength = static_cast<float>(cells / static_cast<double>(longest));
+    m_CellsPerLength = std::isfinite(cellsPerLength) ? cellsPerLength : 0.0f; // one cell without extent
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       m_Size[axis] = 1 + static_cast<std::size_t>((actor.box.highest[axis] - m_Lowest[axis]) * m_CellsPerLength);
