@@ -209,9 +209,11 @@ TEST(SurfacePassScene, FacetsSeenFromTheSideInAWidePerspective)
     vtkCamera * const camera = renderer->GetActiveCamera();
     camera->SetPosition(0.0, 0.0, 1.0);
     camera->SetViewAngle(140.0);
-    for (const double x : { -2.2, -0.8, 0.8, 2.2 })
+    for (const double x : { -1.8, 1.8 })
     {
-      Add(renderer, Ball(0.6, false, 12))->SetPosition(x, 0.3, -0.1);
+      vtkActor * const ball = Add(renderer, Ball(0.8, false, 9));
+      ball->SetPosition(x, 0.3, 0.3);
+      ball->RotateX(25.0); // the normals of some facets that are seen point away from the camera's plane
     }
   });
 }
@@ -425,6 +427,17 @@ TEST(SurfacePassScene, TheNearestActorIsTheSame)
 }
 
 // Camera and window
+
+TEST(SurfacePassScene, MirroredCamerasSeeFacetsAsVTK)
+{
+  ExpectVTKsPicture([](vtkRenderer * renderer) {
+    Look(renderer);
+    Add(renderer, Ball(1.2, false))->SetScale(1.0, 0.5, 1.5);
+    const vtkNew<vtkTransform> mirrored;
+    mirrored->Scale(-1.0, 1.0, 1.0);
+    renderer->GetActiveCamera()->SetUserTransform(mirrored);
+  });
+}
 
 TEST(SurfacePassScene, TransformsOfTheCamera)
 {

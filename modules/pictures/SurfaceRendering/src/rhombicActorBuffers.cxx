@@ -276,7 +276,7 @@ ActorBuffers::MeanEdge() const
   {
     if (!drawing.program.isPicture)
     {
-      sum += drawing.buffers->triangles * drawing.buffers->meanEdge * std::abs(drawing.matrices.scale);
+      sum += drawing.buffers->triangles * drawing.buffers->meanEdge * drawing.matrices.scale;
       triangles += drawing.buffers->triangles;
     }
   }
@@ -335,6 +335,7 @@ ActorBuffers::SetUniforms(const Drawing & drawing, vtkTextureObject * depthBefor
   program->SetUniformMatrix4x4("clipFromCentred", const_cast<float *>(matrices.clipFromCentred.data()));
   program->SetUniformMatrix4x4("viewFromCentred", const_cast<float *>(matrices.viewFromCentred.data()));
   program->SetUniformMatrix3x3("viewFromNormal", const_cast<float *>(matrices.viewFromNormal.data()));
+  program->SetUniformf("handedness", matrices.handedness);
   const bool isPicture = drawing.program.isPicture;
   double factor = 0.0;
   double units = 0.0;
@@ -474,7 +475,7 @@ ActorBuffers::Draw(const Drawing & drawing, vtkTextureObject * depthBefore, cons
   vtkOpenGLState * const state = m_Window->GetState();
   state->SetEnumState(GL_CULL_FACE, drawing.hidesBacks || drawing.hidesFronts);
   state->vtkglCullFace(drawing.hidesBacks ? GL_BACK : GL_FRONT);
-  glFrontFace(drawing.matrices.scale < 0.0 ? GL_CW : GL_CCW);
+  glFrontFace(drawing.matrices.isMirrored ? GL_CW : GL_CCW);
   const auto setCuts = [&drawing](auto && function) {
     for (int n = 0; n < drawing.program.cuts; ++n)
     {

@@ -106,7 +106,10 @@ ActorMatrices::ActorMatrices(const CameraMatrices & camera, vtkMatrix4x4 * world
   clipFromCentred = ByColumns(Product(camera.clipFromView, view));
   viewFromCentred = ByColumns(view);
   viewFromNormal = ForNormals(view);
-  scale = std::cbrt(worldFromActor->Determinant());
+  scale = std::cbrt(std::abs(worldFromActor->Determinant()));
+  const bool mirrorsByCamera = vtkMatrix4x4::Determinant(camera.clipFromView.data()) > 0.0; // depths run away from z
+  isMirrored = (vtkMatrix4x4::Determinant(view.data()) < 0.0) != mirrorsByCamera;
+  handedness = mirrorsByCamera ? -1.0f : 1.0f;
 }
 
 } // namespace rhombic

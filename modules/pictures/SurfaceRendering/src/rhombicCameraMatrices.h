@@ -51,7 +51,9 @@ struct ActorMatrices
   std::array<float, 16> viewFromCentred; ///< column by column
   std::array<float, 9> viewFromNormal;   ///< column by column; x right, y up, z towards the viewer
   CameraMatrices::Matrix worldFromCentred;
-  double scale; ///< cube root of the volume that a unit cube has in the world; negative if it is mirrored
+  double scale;     ///< cube root of the volume that a unit cube has in the world
+  bool isMirrored;  ///< in the picture
+  float handedness; ///< of the picture: 1, or -1 if the camera's projection mirrors
 };
 
 } // namespace rhombic

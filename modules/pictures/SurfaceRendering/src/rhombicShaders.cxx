@@ -84,6 +84,7 @@ in vec3 direction;
 #if COLOURS
 in vec4 mappedColour;
 #endif
+uniform float handedness;
 uniform vec4 colours[2]; // of fronts and backs; opaque: alpha is the surface's number
 #if TRANSLUCENT
 uniform sampler2D depthBefore;
@@ -102,8 +103,7 @@ void main()
   vec3 normal = normalize(direction);
   normal = gl_FrontFacing ? normal : -normal;
 #else
-  vec3 normal = normalize(cross(dFdx(position), dFdy(position)));
-  normal = normal.z < 0.0 ? -normal : normal;
+  vec3 normal = handedness * normalize(cross(dFdx(position), dFdy(position))); // towards the viewer
 #endif
   vec4 colour = colours[side];
 #if COLOURS
