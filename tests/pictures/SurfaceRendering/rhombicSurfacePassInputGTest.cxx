@@ -40,7 +40,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -348,27 +347,6 @@ TEST(SurfacePassInput, TrianglesWithoutArea)
   }
 }
 
-TEST(SurfacePassInput, MatricesThatCannotBeInverted)
-{
-  for (const double value : { 0.0, std::nan(""), std::numeric_limits<double>::infinity() })
-  {
-    ExpectOnlyTheBall(std::to_string(value).c_str(), [value](Scene & scene, Errors & errors) {
-      const vtkNew<vtkMatrix4x4> matrix;
-      matrix->Zero();
-      matrix->SetElement(3, 3, 1.0);
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        matrix->SetElement(axis, axis, value);
-      }
-      matrix->SetElement(0, 3, -100.0);
-      const auto actor = scene.Add(scene.surface, 0.0);
-      actor->SetUserMatrix(matrix);
-      errors.Observe(actor);
-      errors.Observe(actor->GetMapper());
-    });
-  }
-}
-
 TEST(SurfacePassInput, AMirroredBallIsTheBallMirrored)
 {
   Scene scene;
@@ -433,34 +411,6 @@ TEST(SurfacePassInput, AViewportWithoutPixels)
     EXPECT_LE(DifferentPixels(scene.Draw(), expected), static_cast<std::size_t>(Width + Height));
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   }
-}
-
-TEST(SurfacePassInput, TenThousandActors)
-{
-  constexpr int side = 100;
-  const auto seconds = [](vtkRenderPass * pass, std::size_t & seen) {
-    Scene scene(pass);
-    const Bytes before = scene.Draw();
-    const auto small = BallOf(0.02, 6);
-    for (int n = 0; n < side * side; ++n)
-    {
-      scene.Add(small, -2.9 + 2.5 * (n % side) / side)->AddPosition(0.0, -2.0 + 4.0 * (n / side) / side, 0.0);
-    }
-    const auto start = std::chrono::steady_clock::now();
-    scene.Draw();
-    const Bytes after = scene.Draw();
-    seen = DifferentPixels(before, after);
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  };
-  std::size_t seen = 0;
-  std::size_t expected = 0;
-  const double ours = seconds(vtkSmartPointer<vtkRhombicSurfacePass>::New(), seen);
-  const double vtks = seconds(nullptr, expected);
-  RecordProperty("seconds", std::to_string(ours));
-  RecordProperty("secondsOfVTK", std::to_string(vtks));
-  EXPECT_GT(expected, 2000u);
-  EXPECT_GE(seen, expected);
-  EXPECT_LT(ours, 3.0 * vtks + 2.0);
 }
 
 // Changes between pictures
