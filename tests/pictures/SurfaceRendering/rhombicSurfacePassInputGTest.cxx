@@ -705,6 +705,8 @@ TEST(SurfacePassLife, DrawsAgainAfterItsResourcesAreReleased)
     EXPECT_EQ(scene.Draw(), pixels);
     scene.renderer->ReleaseGraphicsResources(scene.window);
     EXPECT_EQ(scene.Draw(), pixels);
+    scene.window->ReleaseGraphicsResources(scene.window);
+    EXPECT_EQ(scene.Draw(), pixels);
     scene.window->Finalize();
     EXPECT_EQ(scene.Draw(), pixels);
     scene.pass->ReleaseGraphicsResources(scene.window);

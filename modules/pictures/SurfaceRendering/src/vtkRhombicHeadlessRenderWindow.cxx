@@ -475,6 +475,10 @@ vtkRhombicHeadlessRenderWindow::OpenGLInitContext()
   this->GlewInitValid =
     result == GLEW_OK || result == GLEW_ERROR_NO_GLX_DISPLAY || result == GLEW_ERROR_GLX_VERSION_11_ONLY;
   this->Initialized = this->GlewInitValid;
+  if (this->Initialized)
+  {
+    glActiveTexture(GL_TEXTURE0); // a new vtkOpenGLState takes this unit for active, and does not ask
+  }
   GLfloat widths[2] = { 1.0f, 1.0f };
   glGetFloatv(this->LineSmoothing ? GL_SMOOTH_LINE_WIDTH_RANGE : GL_ALIASED_LINE_WIDTH_RANGE, widths);
   this->MaximumHardwareLineWidth = widths[1];
