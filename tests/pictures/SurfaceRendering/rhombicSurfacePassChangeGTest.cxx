@@ -1,156 +1,265 @@
-#include "rhombicPassPictures.h"
+#include "rhombicPassScene.h"
+#include "vtkRhombicOpaquePass.h"
 
-#include <vtkCellPicker.h>
-#include <vtkHardwareSelector.h>
-#include <vtkInformation.h>
+#include <vtkCellArray.h>
 #include <vtkLight.h>
 #include <vtkLookupTable.h>
+#include <vtkMatrix4x4.h>
 #include <vtkPlane.h>
 #include <vtkPlaneCollection.h>
-#include <vtkPointData.h>
-#include <vtkSelection.h>
-#include <vtkSelectionNode.h>
-
-#include <functional>
-#include <memory>
-#include <string>
-#include <vector>
-
 #include <vtk_glew.h>
 
-/** Scenes that change between pictures, and passes that outlive or change their windows. */
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+/** Scenes that change between pictures, and passes and windows that come and go. */
 namespace
 {
 
 using namespace rhombic::test;
 
-/** A scene in a window, whose pictures the test asks for one after the other. */
-class ChangingScene : public testing::Test
+using Change = std::function<void(PassScene &)>;
+
+/** Draws, changes, draws; the second picture differs and is that of a fresh scene with the change. */
+void
+ExpectToShow(
+  const char * what,
+  const Change & change,
+  const Change & before = [](PassScene &) {})
 {
-protected:
-  ChangingScene()
-    : m_Surface(Ball(1.2, true, 32))
-  {
-    m_Window->AddRenderer(m_Renderer);
-    m_Renderer->SetBackground(0.1, 0.2, 0.3);
-    Look(m_Renderer);
-    PeelDepths(m_Renderer);
-    const vtkNew<vtkFloatArray> heights;
-    for (vtkIdType n = 0; n < m_Surface->GetNumberOfPoints(); ++n)
+  SCOPED_TRACE(what);
+  PassScene scene;
+  before(scene);
+  const Bytes first = scene.Draw();
+  EXPECT_EQ(scene.Draw(), first);
+  change(scene);
+  const Bytes second = scene.Draw();
+  PassScene fresh;
+  before(fresh);
+  change(fresh);
+  EXPECT_EQ(DifferentPixels(second, fresh.Draw()), 0u);
+  EXPECT_GT(DifferentPixels(first, second), 20u);
+}
+
+void
+ShowValues(PassScene & scene)
+{
+  vtkMapper * const mapper = scene.ball->GetMapper();
+  mapper->ScalarVisibilityOn();
+  mapper->SetScalarRange(-1.0, 1.0);
+  const vtkNew<vtkLookupTable> table;
+  table->SetRange(-1.0, 1.0);
+  table->Build();
+  mapper->SetLookupTable(table);
+}
+
+/** As ShowValues(), with values that are newer than the mapper. */
+void
+ShowNewValues(PassScene & scene)
+{
+  ShowValues(scene);
+  scene.surface->GetPointData()->GetScalars()->Modified();
+}
+
+TEST(SurfacePassChanges, Shape)
+{
+  const auto movePoints = [](PassScene & scene) {
+    for (vtkIdType n = 0; n < scene.surface->GetNumberOfPoints(); ++n)
     {
-      heights->InsertNextValue(static_cast<float>(m_Surface->GetPoint(n)[2]));
+      std::array<double, 3> point{};
+      scene.surface->GetPoint(n, point.data());
+      scene.surface->GetPoints()->SetPoint(n, point[0], 1.3 * point[1], point[2]);
     }
-    m_Table->SetRange(-1.2, 1.2);
-    m_Table->Build();
-    m_Actor = Add(m_Renderer, m_Surface);
-    Mapper()->SetLookupTable(m_Table);
-    Mapper()->UseLookupTableScalarRangeOn();
-    m_Surface->GetPointData()->SetScalars(heights); // later than the mapper's changes
-    m_Surface->Modified();
-    m_Other = Add(m_Renderer, Ball(0.5));
-    m_Other->SetPosition(1.4, -0.4, 0.4);
-    m_Renderer->ResetCameraClippingRange();
-  }
-
-  vtkMapper *
-  Mapper()
-  {
-    return m_Actor->GetMapper();
-  }
-
-  Drawn
-  DrawBy(vtkRenderPass * pass)
-  {
-    m_Renderer->SetPass(pass);
-    return Render(m_Window);
-  }
-
-  /** A picture by the pass, which is that of VTK. */
-  Drawn
-  ExpectVTKsPictureNow(const std::string & change)
-  {
-    Drawn drawn = DrawBy(m_Pass);
-    const Drawn expected = DrawBy(nullptr);
-    EXPECT_LE(ShareOfOtherDepths(expected, drawn), ShareAtEdges) << change;
-    EXPECT_LE(ShareOfOtherColours(expected, drawn, LargestLitDifference), ShareAtEdges) << change;
-    return drawn;
-  }
-
-  const vtkSmartPointer<vtkRenderWindow> m_Window = MakeWindow();
-  const vtkNew<vtkRenderer> m_Renderer;
-  const vtkSmartPointer<vtkRhombicSurfacePass> m_Pass = PlainPass();
-  const vtkSmartPointer<vtkPolyData> m_Surface;
-  const vtkNew<vtkLookupTable> m_Table;
-  vtkActor * m_Actor = nullptr;
-  vtkActor * m_Other = nullptr;
-};
-
-TEST_F(ChangingScene, EachChangeIsSeen)
-{
-  const auto positions = vtkFloatArray::SafeDownCast(m_Surface->GetPoints()->GetData());
-  auto * const heights = vtkFloatArray::SafeDownCast(m_Surface->GetPointData()->GetScalars());
-  const vtkNew<vtkPolyDataMapper> sameInput;
-  sameInput->SetInputData(m_Surface);
-  sameInput->SetLookupTable(m_Table);
-  sameInput->SetScalarRange(0.0, 0.5);
-  m_Table->Modified();                            // later than both mappers
-  const auto otherSurface = Ball(0.9, false, 12); // older than what replaces it
-  const std::vector<std::pair<std::string, std::function<void()>>> changes{
-    { "mapper", [&]() { m_Actor->SetMapper(sameInput); } },
-    { "table", [&]() { m_Table->SetHueRange(0.2, 0.9), m_Table->ForceBuild(); } },
-    { "scalars", [&]() { heights->SetValue(200, 9.0f), heights->FillComponent(0, 0.3), heights->Modified(); } },
-    { "range", [&]() { m_Surface->Modified(), Mapper()->SetScalarRange(0.0, 0.4); } },
-    { "without scalars", [&]() { Mapper()->ScalarVisibilityOff(); } },
-    { "with scalars", [&]() { Mapper()->ScalarVisibilityOn(); } },
-    { "surface is changed", [&]() { m_Surface->Modified(); } },
-    { "without scalars again", [&]() { Mapper()->ScalarVisibilityOff(); } },
-    { "points",
-      [&]() {
-        for (vtkIdType n = 0; n < positions->GetNumberOfTuples(); ++n)
-        {
-          positions->SetComponent(n, 2, 0.8 * positions->GetComponent(n, 2));
-        }
-        m_Surface->GetPoints()->Modified();
-      } },
-    { "colour", [&]() { m_Actor->GetProperty()->SetColor(0.2, 0.4, 0.9); } },
-    { "opacity", [&]() { m_Actor->GetProperty()->SetOpacity(0.4); } },
-    { "solid", [&]() { m_Actor->GetProperty()->SetOpacity(1.0); } },
-    { "flat", [&]() { m_Actor->GetProperty()->SetInterpolationToFlat(); } },
-    { "matrix", [&]() { m_Actor->RotateX(30.0), m_Actor->SetPosition(-0.4, 0.2, 0.3); } },
-    { "camera", [&]() { m_Renderer->GetActiveCamera()->Azimuth(40.0); } },
-    { "plane",
-      [&]() {
-        const vtkNew<vtkPlane> plane;
-        plane->SetNormal(0.0, 0.0, 1.0);
-        Mapper()->AddClippingPlane(plane);
-      } },
-    { "moved plane", [&]() { Mapper()->GetClippingPlanes()->GetItem(0)->SetOrigin(0.0, 0.0, 0.5); } },
-    { "without plane", [&]() { Mapper()->RemoveAllClippingPlanes(); } },
-    { "scene light",
-      [&]() {
-        m_Renderer->RemoveAllLights();
-        const vtkNew<vtkLight> light;
-        light->SetPosition(5.0, -3.0, 2.0);
-        m_Renderer->AddLight(light);
-      } },
-    { "other surface", [&]() { sameInput->SetInputData(otherSurface); } },
-    { "hidden", [&]() { m_Other->VisibilityOff(); } },
-    { "shown", [&]() { m_Other->VisibilityOn(); } },
-    { "removed", [&]() { m_Renderer->RemoveActor(m_Other); } },
-    { "added", [&]() { Add(m_Renderer, Ball(0.6))->SetPosition(-1.2, 0.0, -0.9); } },
-    { "samples", [&]() { m_Window->SetSize(Side, Side), m_Renderer->SetBackground(0.3, 0.2, 0.1); } },
+    scene.surface->GetPoints()->Modified();
   };
-  Drawn before = ExpectVTKsPictureNow("first");
-  for (const auto & [name, change] : changes)
-  {
-    change();
-    Drawn after = ExpectVTKsPictureNow(name);
-    if (name != "surface is changed")
+  ExpectToShow("points", movePoints);
+  ExpectToShow("points under values", movePoints, ShowValues);
+  ExpectToShow("cells", [](PassScene & scene) {
+    const vtkNew<vtkCellArray> some;
+    const vtkNew<vtkIdList> corners;
+    for (vtkIdType cell = 0; cell < scene.surface->GetNumberOfPolys(); cell += 2)
     {
-      EXPECT_GT(ShareOfOtherColours(before, after, 0.0), 0.0) << name;
+      scene.surface->GetCellPoints(cell, corners);
+      some->InsertNextCell(corners);
     }
-    before = std::move(after);
-  }
+    scene.surface->SetPolys(some);
+  });
+  ExpectToShow("another surface", [](PassScene & scene) {
+    static_cast<vtkPolyDataMapper *>(scene.ball->GetMapper())->SetInputData(BallOf(0.6));
+  });
+  ExpectToShow("another mapper", [](PassScene & scene) { scene.ball->SetMapper(ActorOf(BallOf(0.6))->GetMapper()); });
+  ExpectToShow(
+    "an older surface",
+    [older = BallOf(0.6)](PassScene & scene) {
+      static_cast<vtkPolyDataMapper *>(scene.ball->GetMapper())->SetInputData(older);
+    },
+    ShowNewValues);
+}
+
+TEST(SurfacePassChanges, Values)
+{
+  ExpectToShow("visible", ShowValues);
+  const auto hide = [](PassScene & scene) { scene.ball->GetMapper()->ScalarVisibilityOff(); };
+  ExpectToShow("hidden", hide, ShowValues);
+  ExpectToShow("new ones hidden", hide, ShowNewValues);
+  const auto turn = [](PassScene & scene) {
+    vtkDataArray * const values = scene.surface->GetPointData()->GetScalars();
+    for (vtkIdType n = 0; n < values->GetNumberOfTuples(); ++n)
+    {
+      values->SetTuple1(n, scene.surface->GetPoint(n)[0]);
+    }
+    values->Modified();
+  };
+  ExpectToShow("others", turn, ShowValues);
+  ExpectToShow(
+    "range", [](PassScene & scene) { scene.ball->GetMapper()->SetScalarRange(-0.2, 0.4); }, ShowValues);
+  ExpectToShow(
+    "colours of the table",
+    [](PassScene & scene) {
+      auto * const table = vtkLookupTable::SafeDownCast(scene.ball->GetMapper()->GetLookupTable());
+      table->Build();
+      table->SetHueRange(0.2, 0.4);
+      table->Build();
+      table->SetTableValue(128, 1.0, 1.0, 1.0, 1.0);
+    },
+    ShowNewValues);
+  ExpectToShow(
+    "another table",
+    [](PassScene & scene) {
+      const vtkNew<vtkLookupTable> table;
+      table->SetHueRange(0.5, 0.7);
+      scene.ball->GetMapper()->SetLookupTable(table);
+    },
+    ShowNewValues);
+  ExpectToShow(
+    "table with opacity",
+    [](PassScene & scene) {
+      const vtkNew<vtkLookupTable> table;
+      table->SetAlphaRange(0.2, 0.6);
+      scene.ball->GetMapper()->SetLookupTable(table);
+    },
+    ShowNewValues);
+}
+
+TEST(SurfacePassChanges, Property)
+{
+  const auto property = [](PassScene & scene) { return scene.ball->GetProperty(); };
+  ExpectToShow("colour", [&](PassScene & scene) { property(scene)->SetColor(0.2, 0.9, 0.2); });
+  ExpectToShow("specular", [&](PassScene & scene) { property(scene)->SetSpecular(0.8); });
+  ExpectToShow("ambient", [&](PassScene & scene) { property(scene)->SetAmbient(0.8); });
+  ExpectToShow("flat", [&](PassScene & scene) { property(scene)->SetInterpolationToFlat(); });
+  ExpectToShow(
+    "flat under values", [&](PassScene & scene) { property(scene)->SetInterpolationToFlat(); }, ShowNewValues);
+  ExpectToShow("culled", [&](PassScene & scene) { property(scene)->FrontfaceCullingOn(); });
+  ExpectToShow("light", [](PassScene & scene) {
+    const vtkNew<vtkLight> light;
+    light->SetPosition(5.0, -3.0, 2.0);
+    scene.renderer->RemoveAllLights(); // the one that VTK adds to a scene without lights
+    scene.renderer->AddLight(light);
+  });
+  ExpectToShow("another property", [](PassScene & scene) {
+    const vtkNew<vtkProperty> other;
+    other->SetColor(0.0, 0.0, 1.0);
+    scene.ball->SetProperty(other);
+  });
+  ExpectToShow("lines", [&](PassScene & scene) { property(scene)->SetRepresentationToWireframe(); });
+  ExpectToShow(
+    "surface again",
+    [&](PassScene & scene) { property(scene)->SetRepresentationToSurface(); },
+    [&](PassScene & scene) { property(scene)->SetRepresentationToWireframe(); });
+}
+
+TEST(SurfacePassChanges, OpaqueTranslucentAndBack)
+{
+  const auto set = [](double opacity) {
+    return [opacity](PassScene & scene) { scene.ball->GetProperty()->SetOpacity(opacity); };
+  };
+  ExpectToShow("translucent", set(0.4));
+  ExpectToShow("less", set(0.4), set(0.6));
+  ExpectToShow("opaque", set(1.0), set(0.4));
+  ExpectToShow("gone", set(0.0), set(0.4));
+  PassScene scene;
+  const Bytes opaque = scene.Draw();
+  set(0.4)(scene);
+  EXPECT_NE(scene.Draw(), opaque);
+  set(1.0)(scene);
+  EXPECT_EQ(scene.Draw(), opaque);
+}
+
+TEST(SurfacePassChanges, CameraMatrixAndCuts)
+{
+  ExpectToShow("zoom", [](PassScene & scene) { scene.renderer->GetActiveCamera()->SetParallelScale(3.5); });
+  ExpectToShow("turn", [](PassScene & scene) { scene.renderer->GetActiveCamera()->Azimuth(30.0); });
+  ExpectToShow("perspective", [](PassScene & scene) { scene.renderer->GetActiveCamera()->ParallelProjectionOff(); });
+  ExpectToShow("clipping range",
+               [](PassScene & scene) { scene.renderer->GetActiveCamera()->SetClippingRange(9.5, 20.0); });
+  ExpectToShow("position", [](PassScene & scene) { scene.ball->AddPosition(0.2, 0.3, 0.0); });
+  ExpectToShow("scale", [](PassScene & scene) { scene.ball->SetScale(0.7); });
+  const vtkNew<vtkMatrix4x4> moved;
+  moved->SetElement(1, 3, 0.5);
+  ExpectToShow("user matrix", [&](PassScene & scene) { scene.ball->SetUserMatrix(moved); });
+  const auto cut = [](PassScene & scene) {
+    const vtkNew<vtkPlane> plane;
+    plane->SetOrigin(1.5, 0.2, 0.0);
+    plane->SetNormal(0.0, -1.0, 0.3);
+    scene.ball->GetMapper()->AddClippingPlane(plane);
+  };
+  ExpectToShow("cut", cut);
+  ExpectToShow(
+    "cut moved",
+    [](PassScene & scene) { scene.ball->GetMapper()->GetClippingPlanes()->GetItem(0)->SetOrigin(1.5, -0.3, 0.0); },
+    cut);
+  ExpectToShow(
+    "cut removed", [](PassScene & scene) { scene.ball->GetMapper()->RemoveAllClippingPlanes(); }, cut);
+}
+
+TEST(SurfacePassChanges, ActorsComeAndGo)
+{
+  const auto add = [](PassScene & scene) { scene.Add(scene.surface, -1.5); };
+  const auto other = [](PassScene & scene) { return scene.renderer->GetActors()->GetLastActor(); };
+  ExpectToShow("added", add);
+  ExpectToShow(
+    "hidden", [&](PassScene & scene) { other(scene)->VisibilityOff(); }, add);
+  ExpectToShow(
+    "removed", [&](PassScene & scene) { scene.renderer->RemoveActor(other(scene)); }, add);
+  ExpectToShow(
+    "all removed", [](PassScene & scene) { scene.renderer->RemoveAllViewProps(); }, add);
+  ExpectToShow(
+    "removed and another added",
+    [&](PassScene & scene) {
+      scene.renderer->RemoveActor(other(scene));
+      scene.Add(BallOf(0.5), -1.5);
+    },
+    add);
+  PassScene scene;
+  add(scene);
+  const Bytes both = scene.Draw();
+  other(scene)->VisibilityOff();
+  EXPECT_EQ(scene.Draw(), BallAlone());
+  other(scene)->VisibilityOn();
+  EXPECT_EQ(scene.Draw(), both);
+}
+
+TEST(SurfacePassChanges, TranslucentPictures)
+{
+  const auto red = TextureOf(250, 0);
+  const auto green = TextureOf(0, 250);
+  const auto add = [&](PassScene & scene) {
+    const auto poster = Poster(red);
+    poster->GetProperty()->LightingOff();
+    poster->GetProperty()->SetOpacity(0.7);
+    scene.renderer->AddActor(poster);
+  };
+  const auto poster = [](PassScene & scene) { return scene.renderer->GetActors()->GetLastActor(); };
+  ExpectToShow("added", add);
+  ExpectToShow(
+    "another picture", [&](PassScene & scene) { poster(scene)->SetTexture(green); }, add);
+  ExpectToShow(
+    "no picture", [&](PassScene & scene) { poster(scene)->SetTexture(nullptr); }, add);
+  ExpectToShow(
+    "opacity", [&](PassScene & scene) { poster(scene)->GetProperty()->SetOpacity(0.3); }, add);
 }
 
 /** The number of uploads to buffers of OpenGL by VTK's classes, which call through one table in a process. */
@@ -189,169 +298,184 @@ private:
   inline static PFNGLBUFFERDATAPROC s_Upload = nullptr;
 };
 
-TEST_F(ChangingScene, OnlyWhatHasChangedIsUploaded)
+TEST(SurfacePassChanges, OnlyWhatHasChangedIsUploaded)
 {
-  DrawBy(m_Pass);
-  m_Other->VisibilityOff();
-  DrawBy(m_Pass);
-  const auto uploadsAfter = [this](const std::function<void()> & change) {
+  PassScene scene;
+  ShowNewValues(scene);
+  const auto other = scene.Add(BallOf(0.5), -1.5);
+  scene.Draw();
+  other->VisibilityOff();
+  scene.Draw();
+  const auto uploadsAfter = [&scene](const std::function<void()> & change) {
     change();
     const CountedUploads uploads;
-    DrawBy(m_Pass);
+    scene.Draw();
     return uploads.Get();
   };
   EXPECT_EQ(uploadsAfter([]() {}), 0);
-  EXPECT_EQ(uploadsAfter([this]() { m_Renderer->GetActiveCamera()->Azimuth(10.0); }), 0);
-  EXPECT_EQ(uploadsAfter([this]() { m_Actor->SetPosition(0.1, 0.0, 0.0); }), 0);
-  EXPECT_EQ(uploadsAfter([this]() { m_Actor->GetProperty()->SetColor(0.0, 1.0, 0.0); }), 0);
-  EXPECT_EQ(uploadsAfter([this]() { m_Other->VisibilityOn(); }), 0);
-  EXPECT_EQ(uploadsAfter([this]() { m_Surface->Modified(); }), 4); // points, normals, colours, indices of one actor
+  EXPECT_EQ(uploadsAfter([&]() { scene.renderer->GetActiveCamera()->Azimuth(10.0); }), 0);
+  EXPECT_EQ(uploadsAfter([&]() { scene.ball->SetPosition(1.4, 0.0, 0.0); }), 0);
+  EXPECT_EQ(uploadsAfter([&]() { scene.ball->GetProperty()->SetColor(0.0, 1.0, 0.0); }), 0);
+  EXPECT_EQ(uploadsAfter([&]() { other->VisibilityOn(); }), 0);
+  EXPECT_EQ(uploadsAfter([&]() { scene.surface->Modified(); }), 4); // points, normals, colours, indices of one actor
 }
 
-// Windows and their ends
+// Windows and passes that come and go
 
-/** Balls that Rhombic's pass draws, and one of lines that VTK draws. */
+/** The scene with lines of VTK on the left. */
 void
-AddBallsAndLines(vtkRenderer * renderer, double radius)
+AddLines(PassScene & scene, double y = 0.0)
 {
-  Look(renderer);
-  Add(renderer, Ball(radius));
-  Add(renderer, Ball(1.5))->GetProperty()->SetOpacity(0.4);
-  Add(renderer, Ball(1.6))->GetProperty()->SetRepresentationToWireframe();
-  PeelDepths(renderer);
-  renderer->ResetCameraClippingRange();
+  const auto wires = scene.Add(BallOf(1.0, 8), -1.5);
+  wires->AddPosition(0.0, y, 0.0);
+  wires->GetProperty()->SetRepresentationToWireframe();
 }
 
-/** A window with one renderer that draws by a pass. */
-struct OneRenderer
+TEST(SurfacePassLife, DrawsAgainAfterItsResourcesAreReleased)
 {
-  OneRenderer(vtkRenderPass * pass, double radius)
+  for (const double opacity : { 1.0, 0.5 })
   {
-    AddBallsAndLines(renderer, radius);
-    renderer->SetPass(pass);
-    window->AddRenderer(renderer);
-  }
-
-  vtkSmartPointer<vtkRenderWindow> window = MakeWindow();
-  vtkSmartPointer<vtkRenderer> renderer = vtkSmartPointer<vtkRenderer>::New();
-};
-
-TEST(SurfacePassWindows, OnePassServesOneWindowAfterTheOther)
-{
-  const Drawn first = Render(OneRenderer(PlainPass(), 1.0).window);
-  const Drawn second = Render(OneRenderer(PlainPass(), 0.5).window);
-  EXPECT_NE(first.colours, second.colours);
-  const auto pass = PlainPass();
-  OneRenderer a(pass, 1.0);
-  OneRenderer b(pass, 0.5);
-  for (int n = 0; n < 3; ++n)
-  {
-    EXPECT_TRUE(Render(a.window).colours == first.colours) << n;
-    EXPECT_TRUE(Render(b.window).colours == second.colours) << n;
+    PassScene scene;
+    AddLines(scene);
+    scene.ball->GetProperty()->SetOpacity(opacity);
+    const Bytes pixels = scene.Draw();
+    scene.pass->ReleaseGraphicsResources(scene.window);
+    EXPECT_EQ(scene.Draw(), pixels);
+    scene.renderer->ReleaseGraphicsResources(scene.window);
+    EXPECT_EQ(scene.Draw(), pixels);
+    scene.window->ReleaseGraphicsResources(scene.window);
+    EXPECT_EQ(scene.Draw(), pixels);
+    scene.window->Finalize();
+    EXPECT_EQ(scene.Draw(), pixels);
+    scene.pass->ReleaseGraphicsResources(scene.window);
+    scene.window->Finalize();
+    scene.pass->ReleaseGraphicsResources(scene.window);
+    EXPECT_EQ(scene.Draw(), pixels);
   }
 }
 
-TEST(SurfacePassWindows, APassMayEndWhileAnotherWindowIsCurrent)
+TEST(SurfacePassLife, GoesFromOneWindowToAnother)
 {
-  auto pass = PlainPass();
-  OneRenderer ended(pass, 1.0);
-  Render(ended.window);
-  OneRenderer kept(PlainPass(), 0.5);
-  const Drawn before = Render(kept.window);
-  ended.renderer->SetPass(nullptr);
-  pass = nullptr; // its buffers have the names of the other window's
-  EXPECT_TRUE(Render(kept.window).colours == before.colours);
-}
-
-TEST(SurfacePassWindows, APassMayOutliveTheWindowItHasLeft)
-{
-  const auto pass = PlainPass();
-  auto ended = std::make_unique<OneRenderer>(pass, 1.0);
-  const Drawn first = Render(ended->window);
-  OneRenderer kept(PlainPass(), 0.5);
-  const Drawn before = Render(kept.window);
-  ended->renderer->SetPass(nullptr);
-  ended = nullptr;
-  EXPECT_TRUE(Render(kept.window).colours == before.colours);
-  EXPECT_TRUE(Render(OneRenderer(pass, 1.0).window).colours == first.colours);
-  EXPECT_TRUE(Render(kept.window).colours == before.colours);
-}
-
-TEST(SurfacePassWindows, PassWindowAndRendererEndInAnyOrder)
-{
-  const Drawn expected = Render(OneRenderer(PlainPass(), 1.0).window);
-  OneRenderer kept(PlainPass(), 0.5);
-  const Drawn before = Render(kept.window);
-  for (const std::string order : { "pwr", "prw", "wpr", "wrp", "rpw", "rwp" })
+  for (const double opacity : { 1.0, 0.5 })
   {
-    auto pass = PlainPass();
-    OneRenderer scene(pass, 1.0);
-    EXPECT_TRUE(Render(scene.window).colours == expected.colours) << order;
-    for (const char what : order)
+    PassScene first;
+    AddLines(first);
+    first.ball->GetProperty()->SetOpacity(opacity);
+    const Bytes ofFirst = first.Draw();
+    PassScene alone;
+    AddLines(alone, 0.7);
+    alone.ball->GetProperty()->SetColor(0.0, 1.0, 0.0);
+    const Bytes ofSecond = alone.Draw();
+    PassScene second(nullptr);
+    AddLines(second, 0.7);
+    second.ball->GetProperty()->SetColor(0.0, 1.0, 0.0);
+    second.Draw(); // so that VTK's mappers have buffers
+    second.renderer->SetPass(first.pass);
+    for (int turn = 0; turn < 3; ++turn)
     {
-      if (what == 'p')
+      EXPECT_EQ(DifferentPixels(second.Draw(), ofSecond), 0u) << turn;
+      EXPECT_EQ(DifferentPixels(first.Draw(), ofFirst), 0u) << turn;
+    }
+  }
+}
+
+TEST(SurfacePassLife, SharesAWindowWithAnotherRenderer)
+{
+  PassScene scene;
+  const vtkNew<vtkRenderer> other;
+  other->SetPass(scene.pass);
+  other->AddActor(ActorOf(BallOf(0.8)));
+  other->SetActiveCamera(scene.renderer->GetActiveCamera());
+  other->SetViewport(0.0, 0.0, 0.5, 1.0);
+  scene.renderer->SetViewport(0.5, 0.0, 1.0, 1.0);
+  scene.window->AddRenderer(other);
+  const Bytes shared = scene.Draw();
+  EXPECT_EQ(scene.Draw(), shared);
+  other->SetPass(vtkSmartPointer<vtkRhombicSurfacePass>::New());
+  EXPECT_EQ(scene.Draw(), shared);
+  EXPECT_GT(DifferentPixels(HalfOf(shared, true), HalfOf(shared, false)), 100u);
+}
+
+TEST(SurfacePassLife, IsDeletedInAnyOrder)
+{
+  const Bytes expected = BallAlone();
+  std::array<int, 3> order{ 0, 1, 2 };
+  do
+  {
+    PassScene scene;
+    scene.Draw();
+    const auto another = BallOf(0.5);
+    for (const int which : order)
+    {
+      if (which == 0)
       {
-        if (scene.renderer)
-        {
-          scene.renderer->SetPass(nullptr);
-        }
-        pass = nullptr;
+        scene.renderer ? scene.renderer->SetPass(nullptr) : void();
+        scene.pass = nullptr;
       }
-      else if (what == 'w')
+      else if (which == 1)
       {
         scene.window = nullptr;
       }
       else
       {
-        if (scene.window)
-        {
-          scene.window->RemoveRenderer(scene.renderer);
-        }
+        scene.window ? scene.window->RemoveRenderer(scene.renderer) : void();
         scene.renderer = nullptr;
       }
+      scene.window ? scene.window->Render() : void();
     }
-    EXPECT_TRUE(Render(kept.window).colours == before.colours) << order;
+    EXPECT_EQ(BallAlone(), expected);
+  } while (std::next_permutation(order.begin(), order.end()));
+}
+
+TEST(SurfacePassLife, EndsWhileAnotherWindowIsCurrent)
+{
+  PassScene ended;
+  ended.Draw();
+  PassScene kept;
+  AddLines(kept);
+  const Bytes before = kept.Draw();
+  ended.renderer->SetPass(nullptr);
+  ended.pass = nullptr; // its buffers have the names of the other window's
+  EXPECT_EQ(kept.Draw(), before);
+}
+
+TEST(SurfacePassLife, OutlivesItsWindowAndRenderer)
+{
+  vtkSmartPointer<vtkRenderPass> pass;
+  const Bytes expected = BallAlone();
+  for (int window = 0; window < 3; ++window)
+  {
+    PassScene scene;
+    if (pass)
+    {
+      scene.renderer->SetPass(pass);
+    }
+    else
+    {
+      pass = scene.pass;
+    }
+    EXPECT_EQ(scene.Draw(), expected) << window;
   }
 }
 
-TEST(SurfacePassWindows, DrawsAgainAfterReleasingAndFinalizing)
+TEST(SurfacePassLife, WindowsOfOtherSizes)
 {
-  const auto pass = PlainPass();
-  OneRenderer scene(pass, 1.0);
-  const Drawn first = Render(scene.window);
-  pass->ReleaseGraphicsResources(scene.window);
-  EXPECT_TRUE(Render(scene.window).colours == first.colours);
-  scene.window->Finalize();
-  EXPECT_TRUE(Render(scene.window).colours == first.colours);
-}
-
-// Selection
-
-TEST(SurfacePassWindows, ActorsAreSelectedAndPicked)
-{
-  const auto window = MakeWindow();
-  const vtkNew<vtkRenderer> renderer;
-  Look(renderer);
-  vtkActor * const ball = Add(renderer, Ball(1.0));
-  Add(renderer, Ball(0.5))->SetPosition(2.0, 0.0, 0.0);
-  renderer->ResetCameraClippingRange();
-  renderer->SetPass(PlainPass());
-  window->AddRenderer(renderer);
-  const Drawn before = Render(window);
-
-  const vtkNew<vtkHardwareSelector> selector;
-  selector->SetRenderer(renderer);
-  selector->SetFieldAssociation(vtkDataObject::FIELD_ASSOCIATION_CELLS);
-  selector->SetArea(90, 90, 110, 110);
-  const auto selection = vtkSmartPointer<vtkSelection>::Take(selector->Select());
-  ASSERT_EQ(selection->GetNumberOfNodes(), 1U);
-  EXPECT_EQ(selection->GetNode(0)->GetProperties()->Get(vtkSelectionNode::PROP()), ball);
-  EXPECT_GT(selection->GetNode(0)->GetSelectionList()->GetNumberOfTuples(), 10);
-
-  const vtkNew<vtkCellPicker> picker;
-  EXPECT_NE(picker->Pick(100.0, 100.0, 0.0, renderer), 0);
-  EXPECT_EQ(picker->GetActor(), ball);
-  EXPECT_TRUE(Render(window).colours == before.colours);
+  for (const double opacity : { 1.0, 0.5 })
+  {
+    PassScene scene;
+    scene.ball->GetProperty()->SetOpacity(opacity);
+    const Bytes pixels = scene.Draw();
+    for (const std::array<int, 2> size : { std::array<int, 2>{ 200, 150 }, { 31, 77 }, { 1, 1 }, { 64, 300 } })
+    {
+      scene.window->SetSize(size[0], size[1]);
+      PassScene fresh;
+      fresh.ball->GetProperty()->SetOpacity(opacity);
+      fresh.window->SetSize(size[0], size[1]);
+      EXPECT_EQ(scene.Draw(), fresh.Draw()) << size[0] << " x " << size[1];
+    }
+    scene.window->SetSize(Width, Height);
+    EXPECT_EQ(scene.Draw(), pixels);
+  }
 }
 
 } // namespace
