@@ -28,7 +28,9 @@ class vtkRhombicTranslucentPass;
  * The lights are those of the renderer, as VTK lights surfaces, or one of two sets that go with the camera. With these,
  * only the property's diffuse colour and specular strength count.
  *
- * A pass serves one render window at a time. It is not thread safe.
+ * A pass serves one render window at a time. A pass that is taken from its renderer keeps what it has uploaded until it
+ * is deleted or draws in another window: call ReleaseGraphicsResources() before that window is finalized, as for VTK's
+ * passes. Not thread safe.
  *
  * @sa vtkRhombicTranslucentPass vtkRhombicSurfacePass
  */
