@@ -159,6 +159,7 @@ BallAlone()
 {
   return PassScene().Draw();
 }
+
 /** A picture of one colour. */
 inline vtkSmartPointer<vtkTexture>
 TextureOf(unsigned char red, unsigned char green)

@@ -9,7 +9,6 @@ class vtkRenderState;
 /** What vtkRhombicOpaquePass keeps between pictures, and vtkRhombicTranslucentPass uses. */
 struct vtkRhombicOpaquePass::Parts
 {
-public:
   Parts() = default;
   ~Parts();
   Parts(const Parts &) = delete;
