@@ -1,5 +1,7 @@
 #include "itkTriangleSurfaceMeasures.h"
 
+#include "itkExampleSurfaces.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -66,6 +68,54 @@ TEST(TriangleSurfaceMeasures, CentroidOfATetrahedronIsTheMeanOfItsCorners)
   EXPECT_NEAR(centroid[0], 1001.0, 1e-9);
   EXPECT_NEAR(centroid[1], -498.0, 1e-9);
   EXPECT_NEAR(centroid[2], 11.0, 1e-9);
+}
+
+TEST(TriangleSurfaceMeasures, BendingOfACubeIsThatOfItsTwelveEdges)
+{
+  const auto cube = Surface::New();
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    cube->GetPoints().push_back(
+      { corner % 2 == 0 ? 0.0f : 2.0f, corner / 2 % 2 == 0 ? 0.0f : 2.0f, corner / 4 == 0 ? 0.0f : 2.0f });
+  }
+  cube->GetTriangles() = { { 0, 2, 3 }, { 0, 3, 1 }, { 4, 5, 7 }, { 4, 7, 6 }, { 0, 1, 5 }, { 0, 5, 4 },
+                           { 2, 6, 7 }, { 2, 7, 3 }, { 0, 4, 6 }, { 0, 6, 2 }, { 1, 3, 7 }, { 1, 7, 5 } };
+  const double rightAngle = std::acos(0.0);
+  EXPECT_NEAR(ComputeTriangleSurfaceBending(*cube), 12 * 2.0 * rightAngle / 24.0, 1e-9);
+  EXPECT_EQ(ComputeTriangleSurfaceBending(*Surface::New()), 0.0);
+}
+
+TEST(TriangleSurfaceMeasures, BendingOfACylinderIsOneOverItsRadius)
+{
+  constexpr double radius = 3.0;
+  constexpr std::uint32_t sides = 100;
+  const auto cylinder = Surface::New(); // open at both ends
+  for (std::uint32_t n = 0; n < sides; ++n)
+  {
+    const double angle = 2.0 * std::acos(-1.0) * n / sides;
+    for (const float z : { 0.0f, 50.0f })
+    {
+      cylinder->GetPoints().push_back(
+        { static_cast<float>(radius * std::cos(angle)), static_cast<float>(radius * std::sin(angle)), z });
+    }
+    const std::uint32_t next = 2 * ((n + 1) % sides);
+    cylinder->GetTriangles().push_back({ 2 * n, next, next + 1 });
+    cylinder->GetTriangles().push_back({ 2 * n, next + 1, 2 * n + 1 });
+  }
+  EXPECT_NEAR(ComputeTriangleSurfaceBending(*cylinder), 1.0 / radius, 1e-3);
+}
+
+TEST(TriangleSurfaceMeasures, BendingOfASphereIsAboutTwoOverItsRadiusAndThatOfARoughOneMore)
+{
+  const auto sphere = itk::example::MakeSphere(8.0, 5);
+  EXPECT_NEAR(ComputeTriangleSurfaceBending(*sphere), 2.0 / 8.0, 0.1 * 2.0 / 8.0);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> noise(-0.05f, 0.05f);
+  for (auto & point : sphere->GetPoints())
+  {
+    point[2] += noise(random);
+  }
+  EXPECT_GT(ComputeTriangleSurfaceBending(*sphere), 2.0 * 2.0 / 8.0);
 }
 
 } // namespace

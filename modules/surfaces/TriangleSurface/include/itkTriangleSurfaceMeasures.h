@@ -19,6 +19,15 @@ ComputeTriangleSurfaceVolume(const TriangleSurface & surface);
 std::array<double, 3>
 ComputeTriangleSurfaceCentroid(const TriangleSurface & surface);
 
+/** How bent a surface is: the sum over its edges of |angle between the normals of the two triangles| x length of the
+ * edge, over the area; in radians per mm. It is the mean over the surface of |k1| + |k2|, the principal curvatures, to
+ * which it tends as triangles get smaller where these follow them: a cylinder has 1 / r. Of two surfaces of one organ,
+ * the one with pits and steps has more. A sphere, where edges lie in all directions, has about 2 / r; edges with other
+ * than two triangles and triangles without area count as flat. 0 without area. Time O(n log n); memory 36 bytes per
+ * triangle. */
+double
+ComputeTriangleSurfaceBending(const TriangleSurface & surface);
+
 /** The largest distance between two points in mm; 0 without points. Exact. Memory about 20 bytes per point. */
 double
 ComputeTriangleSurfaceLongestDiameter(const TriangleSurface & surface);

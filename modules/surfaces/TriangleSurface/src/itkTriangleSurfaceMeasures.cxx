@@ -91,6 +91,41 @@ ComputeTriangleSurfaceArea(const TriangleSurface & surface)
 }
 
 double
+ComputeTriangleSurfaceBending(const TriangleSurface & surface)
+{
+  using Side = std::array<std::uint32_t, 3>; // two points, ascending, and the triangle
+  const auto & triangles = surface.GetTriangles();
+  std::vector<Side> sides;
+  sides.reserve(3 * triangles.size());
+  for (std::uint32_t id = 0; id < triangles.size(); ++id)
+  {
+    for (unsigned int corner = 0; corner < 3; ++corner)
+    {
+      const auto [low, high] = std::minmax(triangles[id][corner], triangles[id][(corner + 1) % 3]);
+      sides.push_back({ low, high, id });
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  double bending = 0.0;
+  for (auto begin = sides.cbegin(); begin != sides.cend();)
+  {
+    const auto & [low, high, id] = *begin;
+    const auto end = std::find_if(
+      begin, sides.cend(), [low = low, high = high](const Side & side) { return side[0] != low || side[1] != high; });
+    if (end - begin == 2)
+    {
+      const PositionType first = AreaVector(CornersOf(surface, triangles[id]));
+      const PositionType second = AreaVector(CornersOf(surface, triangles[(*(begin + 1))[2]]));
+      const double angle = std::atan2(Length(Cross(first, second)), Dot(first, second));
+      bending += angle * Length(Relative(surface, low, high));
+    }
+    begin = end;
+  }
+  const double area = ComputeTriangleSurfaceArea(surface);
+  return area > 0.0 ? bending / area : 0.0;
+}
+
+double
 ComputeTriangleSurfaceVolume(const TriangleSurface & surface)
 {
   return SumOverTriangles(surface, [&](const auto & triangle) { return SixfoldVolume(surface, triangle); }) / 6.0;
