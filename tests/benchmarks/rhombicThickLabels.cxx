@@ -1,0 +1,231 @@
+#include "rhombicLabelSurfaces.h"
+#include "rhombicRunBenchmark.h"
+#include "rhombicTextTable.h"
+#include "rhombicThickMaps.h"
+
+#include "detail/itkPositionArithmetic.h"
+#include "itkImageFileWriter.h"
+#include "itkTriangleSurfaceMeasures.h"
+#include "itkTriangleSurfaceTopology.h"
+
+#include <vtkDiscreteFlyingEdges3D.h>
+#include <vtkIdList.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkWindowedSincPolyDataFilter.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+
+namespace
+{
+
+using namespace rhombic;
+using MapImage = itk::Image<std::uint16_t, 3>;
+using Surface = itk::TriangleSurface;
+
+struct Options
+{
+  ThickMapSettings map;
+  std::string output;
+};
+
+/** The surfaces of all labels of a map, from label 1 on. */
+using Surfaces = std::vector<Surface::Pointer>;
+
+Surfaces
+MakeRhombicSurfaces(MapImage * image)
+{
+  LabelMap map;
+  map.scan.image = MapImage::Pointer(image);
+  map.labels = SummarizeLabels(map.scan, {});
+  LabelMesh mesh = LabelsToWalls(map, {}, {});
+  ExtractSurfaces(mesh);
+  Surfaces surfaces;
+  for (const LabelSurface & label : mesh.labels)
+  {
+    surfaces.push_back(const_cast<Surface *>(label.scene.surface.GetPointer()));
+  }
+  return surfaces;
+}
+
+Surface::Pointer
+FromVTK(vtkPolyData & mesh, const MapImage & map)
+{
+  const auto surface = Surface::New();
+  for (vtkIdType n = 0; n < mesh.GetNumberOfPoints(); ++n)
+  {
+    Surface::PointType point;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      point[axis] = static_cast<float>(map.GetOrigin()[axis] + map.GetSpacing()[axis] * mesh.GetPoint(n)[axis]);
+    }
+    surface->GetPoints().push_back(point);
+  }
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType n = 0; n < mesh.GetNumberOfCells(); ++n)
+  {
+    mesh.GetCellPoints(n, ids);
+    surface->GetTriangles().push_back({ static_cast<std::uint32_t>(ids->GetId(0)),
+                                        static_cast<std::uint32_t>(ids->GetId(1)),
+                                        static_cast<std::uint32_t>(ids->GetId(2)) });
+  }
+  return surface;
+}
+
+/** Surfaces as 3D Slicer makes them by default: in indices, 20 iterations, pass band 0.01. */
+Surfaces
+MakeVTKSurfaces(const MapImage & map, std::size_t labels)
+{
+  vtkNew<vtkImageData> image;
+  const auto & size = map.GetBufferedRegion().GetSize();
+  image->SetDimensions(static_cast<int>(size[0]), static_cast<int>(size[1]), static_cast<int>(size[2]));
+  image->AllocateScalars(VTK_UNSIGNED_SHORT, 1);
+  std::copy_n(map.GetBufferPointer(),
+              map.GetBufferedRegion().GetNumberOfPixels(),
+              static_cast<std::uint16_t *>(image->GetScalarPointer()));
+  Surfaces surfaces;
+  for (std::size_t label = 1; label <= labels; ++label)
+  {
+    vtkNew<vtkDiscreteFlyingEdges3D> edges;
+    edges->SetInputData(image);
+    edges->SetValue(0, static_cast<double>(label));
+    vtkNew<vtkWindowedSincPolyDataFilter> smoother;
+    smoother->SetInputConnection(edges->GetOutputPort());
+    smoother->SetNumberOfIterations(20);
+    smoother->SetPassBand(0.01);
+    smoother->FeatureEdgeSmoothingOff();
+    smoother->BoundarySmoothingOff();
+    smoother->NonManifoldSmoothingOn();
+    smoother->NormalizeCoordinatesOn();
+    smoother->Update();
+    surfaces.push_back(FromVTK(*smoother->GetOutput(), map));
+  }
+  return surfaces;
+}
+
+/** How far a surface is from a structure. */
+struct Errors
+{
+  double mean = 0.0;    ///< distance in mm, by area
+  double common = 0.0;  ///< 95 % of the area is no farther away
+  double degrees = 0.0; ///< mean angle between the normals of the triangles and of the structure
+};
+
+Errors
+CompareWithTruth(const Surface & surface, const ThickStructure & structure)
+{
+  Errors errors;
+  double total = 0.0;
+  std::vector<std::array<double, 2>> distances; // and areas
+  for (const auto & triangle : surface.GetTriangles())
+  {
+    const auto corners = itk::CornersOf(surface, triangle);
+    const Vector3 normal = itk::AreaVector(corners);
+    const double area = 0.5 * Length(normal);
+    const Vector3 centre = Scaled(Add(corners[0], Add(corners[1], corners[2])), 1.0 / 3.0);
+    Vector3 outwards;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      constexpr double step = 1e-3;
+      Vector3 beside = centre;
+      beside[axis] += step;
+      const double ahead = structure.depth(beside);
+      beside[axis] -= 2.0 * step;
+      outwards[axis] = structure.depth(beside) - ahead;
+    }
+    const double distance = std::abs(structure.depth(centre));
+    errors.mean += area * distance;
+    errors.degrees +=
+      area * std::atan2(Length(Cross(normal, outwards)), Dot(normal, outwards)) * 180.0 / std::acos(-1.0);
+    total += area;
+    distances.push_back({ distance, area });
+  }
+  std::sort(distances.begin(), distances.end());
+  double area = 0.0;
+  for (auto place = distances.begin(); place != distances.end() && area < 0.95 * total; ++place)
+  {
+    errors.common = (*place)[0];
+    area += (*place)[1];
+  }
+  errors.mean /= total;
+  errors.degrees /= total;
+  return errors;
+}
+
+/** Adds a row for each label. */
+void
+Measure(const std::string & maker,
+        const Surfaces & surfaces,
+        const std::vector<ThickStructure> & structures,
+        const MapImage & map,
+        TextTable & table)
+{
+  const auto & spacing = map.GetSpacing();
+  std::vector<double> volumes(structures.size() + 1);
+  for (std::size_t n = 0; n < map.GetBufferedRegion().GetNumberOfPixels(); ++n)
+  {
+    volumes[map.GetBufferPointer()[n]] += spacing[0] * spacing[1] * spacing[2];
+  }
+  for (std::size_t n = 0; n < surfaces.size(); ++n)
+  {
+    const Surface & surface = *surfaces[n];
+    const auto topology = ComputeTriangleSurfaceTopology(surface);
+    std::vector<std::string> row{ structures[n].name, maker, Fixed(ComputeTriangleSurfaceBending(surface), 3) };
+    if (structures[n].standsAlone)
+    {
+      const Errors errors = CompareWithTruth(surface, structures[n]);
+      row.insert(row.end(), { Fixed(errors.mean, 3), Fixed(errors.common, 3), Fixed(errors.degrees, 1) });
+    }
+    else
+    {
+      row.insert(row.end(), 3, "-");
+    }
+    row.push_back(Fixed(100.0 * (ComputeTriangleSurfaceVolume(surface) / volumes[n + 1] - 1.0), 3));
+    row.push_back(std::to_string(topology.components));
+    row.push_back(std::to_string(topology.genus));
+    row.push_back(std::to_string(surface.GetNumberOfTriangles()));
+    table.Add(row);
+  }
+}
+
+void
+Run(const Options & options)
+{
+  const auto structures = MakeThickStructures();
+  const auto map = MakeThickMap(structures, options.map);
+  if (!options.output.empty())
+  {
+    const auto writer = itk::ImageFileWriter<MapImage>::New();
+    writer->SetInput(map);
+    writer->SetFileName(options.output);
+    writer->UseCompressionOn();
+    writer->Update();
+  }
+  TextTable table(
+    { "label", "by", "bending", "mean mm", "95 % mm", "degrees", "volume %", "pieces", "holes", "triangles" });
+  const auto start = std::chrono::steady_clock::now();
+  Measure("Rhombic", MakeRhombicSurfaces(map), structures, *map, table);
+  const auto middle = std::chrono::steady_clock::now();
+  Measure("VTK", MakeVTKSurfaces(*map, structures.size()), structures, *map, table);
+  const auto end = std::chrono::steady_clock::now();
+  table.Print(std::cout);
+  std::cout << "seconds with measures: Rhombic " << Fixed(std::chrono::duration<double>(middle - start).count(), 1)
+            << ", VTK " << Fixed(std::chrono::duration<double>(end - middle).count(), 1) << '\n';
+}
+
+} // namespace
+
+int
+main(int argc, char ** argv)
+{
+  Options options;
+  CLI::App app{ "Surfaces of labels drawn by hand on thick slices, beside VTK's and the truth",
+                "rhombic-thick-labels" };
+  app.add_option("--seed", options.map.seed, "of the unsteady hand")->capture_default_str();
+  app.add_option("--write", options.output, "also write the map, as NIfTI, to look at its surfaces");
+  return RunBenchmark(app, argc, argv, [&options] { Run(options); });
+}
