@@ -181,7 +181,7 @@ FinishTable()
     { "--fill", &SurfaceFinish::fillsCavities, "fill cavities: remove shells that lie inside others" },
     { "--smooth",
       &SurfaceFinish::smoothing,
-      "smooth; no point moves further than this many spacings of the lattice, as 0.3" },
+      "smooth; no point moves further than this: 0.3 (spacings of the lattice) or 0.8mm, for example" },
   };
   return table;
 }

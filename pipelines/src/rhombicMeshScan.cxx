@@ -116,7 +116,7 @@ constexpr double NotablePercent = 1.0; // smaller differences of volumes are not
 std::string
 NameSteps(const SurfaceFinish & finish)
 {
-  if (finish.smoothing > 0.0)
+  if (!finish.smoothing.IsNothing())
   {
     return finish.Simplifies() ? "smoothing and simplification" : "smoothing";
   }

@@ -83,7 +83,7 @@ ParseSurface(const YAML::Node & node)
   request.finish.minimumVolume = node["min-volume"].as<double>(0.0);
   request.finish.keepsLargestPart = node["largest"].as<bool>(false);
   request.finish.fillsCavities = node["fill"].as<bool>(false);
-  request.finish.smoothing = node["smooth"].as<double>(0.0);
+  request.finish.smoothing = ParseSmoothingLimit(node["smooth"].as<std::string>("0"));
   CheckSurfaceFinish(request.finish);
   return request;
 }

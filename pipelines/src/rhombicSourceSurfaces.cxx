@@ -84,7 +84,8 @@ AddLabels(const SurfaceMaking & making, const LoadedSource & loaded, std::vector
   smoothing.smoothing = making.finish.smoothing;
   LabelMesh mesh = LabelsToWalls(
     *loaded.labels, { making.selection.labels->labels, lattice.density, lattice.maximumMemory }, making.events);
-  const bool isMeasured = isForFiles || smoothing.smoothing == 0.0; // else the surfaces would be extracted for it alone
+  const bool isMeasured =
+    isForFiles || smoothing.smoothing.IsNothing(); // else the surfaces would be extracted for it alone
   std::vector<std::optional<ExtractedSize>> extracted(mesh.labels.size());
   if (isMeasured)
   {
@@ -172,10 +173,10 @@ FinishSurface(const SurfaceMaking & making, MeshedSurface & surface)
   }
   if (making.use == SurfaceUse::Pictures)
   {
-    if (surface.request && finish.smoothing > 0.0)
+    if (surface.request && !finish.smoothing.IsNothing())
     {
       itk::TriangleSurfaceSmoothingSettings settings;
-      settings.maximumMove = finish.smoothing * MeanSpacingOf(*surface.lattice);
+      settings.maximumMove = finish.smoothing.FindLargestMove(MeanSpacingOf(*surface.lattice));
       SmoothTriangleSurface(*finished, settings);
     }
     itk::SmoothTriangleSurfaceNormals(*finished);

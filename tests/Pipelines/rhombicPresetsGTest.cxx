@@ -108,7 +108,7 @@ TEST(Presets, ReadEverythingASurfaceHas)
   EXPECT_EQ(preset.surfaces[1].finish.minimumVolume, 2.0);
   EXPECT_TRUE(preset.surfaces[1].finish.keepsLargestPart);
   EXPECT_TRUE(preset.surfaces[1].finish.fillsCavities);
-  EXPECT_EQ(preset.surfaces[1].finish.smoothing, 0.3);
+  EXPECT_EQ(preset.surfaces[1].finish.smoothing.spacings, 0.3);
   EXPECT_FALSE(preset.surfaces[1].insideIsBelow);
 }
 

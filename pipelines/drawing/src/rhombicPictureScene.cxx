@@ -143,10 +143,10 @@ MakeSceneOfScan(const PictureSource & source, std::optional<SourceVolume> volume
 PictureScene
 MakeSceneOfFiles(const PictureSource & source, const Events & events)
 {
-  if (source.finish.smoothing > 0.0)
+  if (!source.finish.smoothing.IsNothing())
   {
     throw Failure(FailureKind::Usage,
-                  "--smooth is in spacings of the lattice, and surface files have none; leave it out.");
+                  "--smooth is for surfaces of scans and labels, not for surface files; leave it out.");
   }
   const SurfaceMaking making{ source.scan, source.surfaces, source.finish, SurfaceUse::Pictures, events };
   PictureScene scene;

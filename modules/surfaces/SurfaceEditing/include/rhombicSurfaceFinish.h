@@ -8,13 +8,50 @@
 #include "itkTriangleSurfaceSolids.h"
 #include "itkTriangleSurfaceUntangling.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <iosfwd>
 #include <optional>
 #include <string>
 
 namespace rhombic
 {
+
+/** \class SmoothingLimit
+ * \brief The largest move of a point by smoothing: a number of spacings of the lattice or a length, whichever is more.
+ * By default nothing moves. */
+struct SmoothingLimit
+{
+  SmoothingLimit(double spacings_ = 0.0)
+    : spacings(spacings_)
+  {}
+
+  bool
+  IsNothing() const
+  {
+    return spacings == 0.0 && millimetres == 0.0;
+  }
+
+  /** In mm. \param spacing of the lattice in mm */
+  double
+  FindLargestMove(double spacing) const
+  {
+    return std::max(spacings * spacing, millimetres);
+  }
+
+  double spacings;          ///< 0 to 1
+  double millimetres = 0.0; ///< finite, not negative
+};
+
+/** The limit that a text says: "0.3" for spacings of the lattice, "0.8mm" or "0.8 mm" for a length. Throws
+ * Failure(Usage) for other texts. */
+SmoothingLimit
+ParseSmoothingLimit(const std::string & text);
+
+/** ParseSmoothingLimit() of all of the stream, for the command line. */
+std::istream &
+operator>>(std::istream & stream, SmoothingLimit & limit);
 
 /** \class SurfaceFinish
  * \brief Steps that a surface goes through after its extraction. By default it is untangled only. */
@@ -23,7 +60,7 @@ struct SurfaceFinish
   double minimumVolume = 0.0;    ///< in ml; smaller solids are removed
   bool keepsLargestPart = false; ///< whether all solids but the largest are removed
   bool fillsCavities = false;    ///< whether shells inside others are removed
-  double smoothing = 0.0;        ///< largest move of a point, in spacings of the lattice; 0 to 1
+  SmoothingLimit smoothing;      ///< largest move of a point
 
   /** A surface is simplified if any of these three is set: until it has the smaller number of triangles, or fewer would
    * have a larger error. */

@@ -135,7 +135,7 @@ void
 TriangleSurfaceFinishFilter::Edit(TriangleSurface & surface, const rhombic::ProgressFunction & report)
 {
   const rhombic::SurfaceFinish finish = this->MakeFinish();
-  const int steps = 1 + (finish.smoothing > 0.0 ? 1 : 0) + (finish.Simplifies() ? 1 : 0);
+  const int steps = 1 + (finish.smoothing.IsNothing() ? 0 : 1) + (finish.Simplifies() ? 1 : 0);
   int begun = 0;
   std::string current;
   m_Notes.clear();

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <istream>
+#include <iterator>
 #include <optional>
 
 namespace rhombic
@@ -149,6 +151,33 @@ DescribeSimplification(const std::string & name, const SurfaceFinish & finish, c
 
 } // namespace
 
+SmoothingLimit
+ParseSmoothingLimit(const std::string & text)
+{
+  const std::size_t unit = text.rfind("mm");
+  const bool isLength = unit != std::string::npos && unit + 2 == text.size();
+  std::string digits = text.substr(0, isLength ? unit : text.size());
+  digits.erase(digits.find_last_not_of(' ') + 1);
+  const auto number = ToNumber<double>(digits);
+  if (!number)
+  {
+    throw Failure(FailureKind::Usage,
+                  "Smoothing by '" + text +
+                    "' is neither a number of spacings of the lattice nor a length; write SurfaceFinish::smoothing = "
+                    "0.3 or 0.8mm, for example.");
+  }
+  SmoothingLimit limit;
+  (isLength ? limit.millimetres : limit.spacings) = *number;
+  return limit;
+}
+
+std::istream &
+operator>>(std::istream & stream, SmoothingLimit & limit)
+{
+  limit = ParseSmoothingLimit({ std::istreambuf_iterator<char>(stream), {} });
+  return stream;
+}
+
 SurfaceFinish
 CombineFinish(const SurfaceFinish & first, const SurfaceFinish & second)
 {
@@ -156,7 +185,8 @@ CombineFinish(const SurfaceFinish & first, const SurfaceFinish & second)
   both.minimumVolume = std::max(first.minimumVolume, second.minimumVolume);
   both.keepsLargestPart = first.keepsLargestPart || second.keepsLargestPart;
   both.fillsCavities = first.fillsCavities || second.fillsCavities;
-  both.smoothing = std::max(first.smoothing, second.smoothing);
+  both.smoothing.spacings = std::max(first.smoothing.spacings, second.smoothing.spacings);
+  both.smoothing.millimetres = std::max(first.smoothing.millimetres, second.smoothing.millimetres);
   return both;
 }
 
@@ -172,9 +202,11 @@ CheckSurfaceFinish(const SurfaceFinish & finish)
   require(finish.minimumVolume >= 0.0 && std::isfinite(finish.minimumVolume),
           "The smallest volume of a part must be 0 ml or more; write SurfaceFinish::minimumVolume = 0.5 for half a "
           "millilitre.");
-  require(
-    finish.smoothing >= 0.0 && finish.smoothing <= 1.0,
-    "Smoothing moves points by 0 to 1 spacings of the lattice; write SurfaceFinish::smoothing = 0.3, for example.");
+  require(finish.smoothing.spacings >= 0.0 && finish.smoothing.spacings <= 1.0,
+          "Smoothing moves points by 0 to 1 spacings of the lattice, or by a length; write SurfaceFinish::smoothing = "
+          "0.3 or 0.8mm, for example.");
+  require(finish.smoothing.millimetres >= 0.0 && std::isfinite(finish.smoothing.millimetres),
+          "Smoothing moves points by 0 mm or more; write SurfaceFinish::smoothing = 0.8mm, for example.");
   require(!finish.maximumError || (*finish.maximumError > 0.0 && std::isfinite(*finish.maximumError)),
           "The largest error of simplification must be above 0; write SurfaceFinish::maximumError = 0.2 for 0.2 mm.");
   require(
@@ -227,10 +259,10 @@ RefineBy(const RefinementFunctions & functions,
          const Events & events)
 {
   Refinement refinement;
-  if (finish.smoothing > 0.0)
+  if (!finish.smoothing.IsNothing())
   {
     const ProgressFunction report = ReportStep(events, "smoothing " + name);
-    refinement.smoothing = Smooth(functions, surface, finish.smoothing * spacing, report);
+    refinement.smoothing = Smooth(functions, surface, finish.smoothing.FindLargestMove(spacing), report);
     events.Note(DescribeSmoothing(name, *refinement.smoothing));
   }
   if (finish.Simplifies())
@@ -268,7 +300,7 @@ RefineSurface(itk::TriangleSurface & surface,
                 " through others of it");
   }
   Refinement refinement;
-  if (finish.smoothing > 0.0 || finish.Simplifies())
+  if (!finish.smoothing.IsNothing() || finish.Simplifies())
   {
     tree.reset();
     refinement = RefineBy(functions, surface, finish, spacing, name, events);
