@@ -5,6 +5,9 @@
 
 #include "detail/itkPositionArithmetic.h"
 #include "itkImageFileWriter.h"
+#include "itkLabelMapFileReader.h"
+#include "itkShrinkImageFilter.h"
+#include "itkTriangleSurfaceDistance.h"
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleSurfaceTopology.h"
 
@@ -18,7 +21,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
+#include <iterator>
+#include <map>
+#include <numeric>
 
 namespace
 {
@@ -31,17 +38,27 @@ struct Options
 {
   ThickMapSettings map;
   std::string output;
+  std::vector<std::string> scans;
+  double slices = 5.0; // mm, of the scans' maps
 };
 
 /** The surfaces of all labels of a map, from label 1 on. */
 using Surfaces = std::vector<Surface::Pointer>;
+
+std::vector<LabelSummary>
+LabelsOf(const MapImage::Pointer & map)
+{
+  Scan scan;
+  scan.image = map;
+  return SummarizeLabels(scan, {});
+}
 
 Surfaces
 MakeRhombicSurfaces(MapImage * image)
 {
   LabelMap map;
   map.scan.image = MapImage::Pointer(image);
-  map.labels = SummarizeLabels(map.scan, {});
+  map.labels = LabelsOf(image);
   LabelMesh mesh = LabelsToWalls(map, {}, {});
   ExtractSurfaces(mesh);
   Surfaces surfaces;
@@ -58,12 +75,9 @@ FromVTK(vtkPolyData & mesh, const MapImage & map)
   const auto surface = Surface::New();
   for (vtkIdType n = 0; n < mesh.GetNumberOfPoints(); ++n)
   {
-    Surface::PointType point;
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      point[axis] = static_cast<float>(map.GetOrigin()[axis] + map.GetSpacing()[axis] * mesh.GetPoint(n)[axis]);
-    }
-    surface->GetPoints().push_back(point);
+    const itk::ContinuousIndex<double, 3> index(mesh.GetPoint(n));
+    const auto point = map.TransformContinuousIndexToPhysicalPoint<double>(index);
+    surface->GetPoints().push_back(itk::ToPoint({ point[0], point[1], point[2] }));
   }
   vtkNew<vtkIdList> ids;
   for (vtkIdType n = 0; n < mesh.GetNumberOfCells(); ++n)
@@ -76,9 +90,9 @@ FromVTK(vtkPolyData & mesh, const MapImage & map)
   return surface;
 }
 
-/** Surfaces as 3D Slicer makes them by default: in indices, 20 iterations, pass band 0.01. */
+/** Surfaces of labels as 3D Slicer makes them by default: in indices, 20 iterations, pass band 0.01. */
 Surfaces
-MakeVTKSurfaces(const MapImage & map, std::size_t labels)
+MakeVTKSurfaces(const MapImage & map, const std::vector<std::int32_t> & labels)
 {
   vtkNew<vtkImageData> image;
   const auto & size = map.GetBufferedRegion().GetSize();
@@ -88,11 +102,11 @@ MakeVTKSurfaces(const MapImage & map, std::size_t labels)
               map.GetBufferedRegion().GetNumberOfPixels(),
               static_cast<std::uint16_t *>(image->GetScalarPointer()));
   Surfaces surfaces;
-  for (std::size_t label = 1; label <= labels; ++label)
+  for (const std::int32_t label : labels)
   {
     vtkNew<vtkDiscreteFlyingEdges3D> edges;
     edges->SetInputData(image);
-    edges->SetValue(0, static_cast<double>(label));
+    edges->SetValue(0, label);
     vtkNew<vtkWindowedSincPolyDataFilter> smoother;
     smoother->SetInputConnection(edges->GetOutputPort());
     smoother->SetNumberOfIterations(20);
@@ -192,8 +206,84 @@ Measure(const std::string & maker,
   }
 }
 
+/** Adds a row of the means over labels.
+ * \param references surfaces of the map before it was made coarse, by label */
 void
-Run(const Options & options)
+MeasureScan(const std::vector<std::string> & names,
+            const Surfaces & surfaces,
+            const std::vector<LabelSummary> & labels,
+            const std::map<std::int32_t, Surface::Pointer> & references,
+            TextTable & table)
+{
+  std::array<double, 4> means{};
+  double worst = 0.0;
+  for (std::size_t n = 0; n < surfaces.size(); ++n)
+  {
+    const Surface & surface = *surfaces[n];
+    const auto distance =
+      ComputeTriangleSurfaceDistance(surface, itk::TriangleTree(*references.at(labels[n].label.value)));
+    const double volume = std::abs(ComputeTriangleSurfaceVolume(surface)) / 1000.0;
+    const double error = 100.0 * std::abs(volume / labels[n].millilitres - 1.0);
+    const std::array<double, 4> figures{
+      ComputeTriangleSurfaceBending(surface), distance.mean, distance.percentile95, error
+    };
+    for (std::size_t figure = 0; figure < figures.size(); ++figure)
+    {
+      means[figure] += figures[figure] / static_cast<double>(surfaces.size());
+    }
+    worst = std::max(worst, labels[n].millilitres > 1.0 ? error : 0.0);
+  }
+  std::vector<std::string> row = names;
+  row.push_back(std::to_string(surfaces.size()));
+  std::transform(means.begin(), means.end(), std::back_inserter(row), [](double mean) { return Fixed(mean, 3); });
+  row.push_back(Fixed(worst, 3));
+  table.Add(row);
+}
+
+/** Every few slices of a label map, about \a step mm apart. */
+MapImage::Pointer
+Coarsen(const MapImage & map, double step)
+{
+  const auto shrink = itk::ShrinkImageFilter<MapImage, MapImage>::New();
+  shrink->SetInput(&map);
+  shrink->SetShrinkFactor(2, static_cast<unsigned int>(std::max(1L, std::lround(step / map.GetSpacing()[2]))));
+  shrink->Update();
+  return shrink->GetOutput();
+}
+
+void
+MeasureScans(const Options & options)
+{
+  TextTable table({ "map", "by", "labels", "bending", "mean mm", "95 % mm", "volume %", "worst above 1 ml %" });
+  for (const std::string & path : options.scans)
+  {
+    const auto reader = itk::LabelMapFileReader<MapImage>::New();
+    reader->SetFileName(path);
+    reader->Update();
+    const MapImage::Pointer fine = reader->GetOutput();
+    const auto surfaces = MakeRhombicSurfaces(fine);
+    const auto labelsOfFine = LabelsOf(fine);
+    std::map<std::int32_t, Surface::Pointer> references;
+    for (std::size_t n = 0; n < labelsOfFine.size(); ++n)
+    {
+      references[labelsOfFine[n].label.value] = surfaces[n];
+    }
+    const auto coarse = Coarsen(*fine, options.slices);
+    const auto labels = LabelsOf(coarse);
+    std::vector<std::int32_t> values;
+    for (const LabelSummary & label : labels)
+    {
+      values.push_back(label.label.value);
+    }
+    const std::string name = std::filesystem::path(path).filename().string();
+    MeasureScan({ name, "Rhombic" }, MakeRhombicSurfaces(coarse), labels, references, table);
+    MeasureScan({ name, "VTK" }, MakeVTKSurfaces(*coarse, values), labels, references, table);
+  }
+  table.Print(std::cout);
+}
+
+void
+MeasureDrawn(const Options & options)
 {
   const auto structures = MakeThickStructures();
   const auto map = MakeThickMap(structures, options.map);
@@ -205,12 +295,14 @@ Run(const Options & options)
     writer->UseCompressionOn();
     writer->Update();
   }
+  std::vector<std::int32_t> values(structures.size());
+  std::iota(values.begin(), values.end(), 1);
   TextTable table(
     { "label", "by", "bending", "mean mm", "95 % mm", "degrees", "volume %", "pieces", "holes", "triangles" });
   const auto start = std::chrono::steady_clock::now();
   Measure("Rhombic", MakeRhombicSurfaces(map), structures, *map, table);
   const auto middle = std::chrono::steady_clock::now();
-  Measure("VTK", MakeVTKSurfaces(*map, structures.size()), structures, *map, table);
+  Measure("VTK", MakeVTKSurfaces(*map, values), structures, *map, table);
   const auto end = std::chrono::steady_clock::now();
   table.Print(std::cout);
   std::cout << "seconds with measures: Rhombic " << Fixed(std::chrono::duration<double>(middle - start).count(), 1)
@@ -227,5 +319,8 @@ main(int argc, char ** argv)
                 "rhombic-thick-labels" };
   app.add_option("--seed", options.map.seed, "of the unsteady hand")->capture_default_str();
   app.add_option("--write", options.output, "also write the map, as NIfTI, to look at its surfaces");
-  return RunBenchmark(app, argc, argv, [&options] { Run(options); });
+  app.add_option("--scan", options.scans, "instead, label maps made coarse along z, beside surfaces of all slices");
+  app.add_option("--slices", options.slices, "distance of the slices of --scan, in mm")->capture_default_str();
+  return RunBenchmark(
+    app, argc, argv, [&options] { options.scans.empty() ? MeasureDrawn(options) : MeasureScans(options); });
 }
