@@ -326,6 +326,66 @@ TEST(LabelWallsEditing, RelaxedWallsAreSmoother)
   }
 }
 
+TEST(LabelWallsEditing, ThinTubesBecomeRoundAndKeepTheirRadius)
+{
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> noise(-0.4, 0.4);
+  const auto tube = MakeLabels(Region(0, 8, 16, 80), [&](const itk::Index<3> & index) {
+    const auto site = itk::FCCLattice::SiteOf(index);
+    const double radius = std::hypot(site[0] - 8.0, site[1] - 8.0);
+    return static_cast<std::uint16_t>(radius < 2.5 + noise(random) && site[2] > 4 && site[2] < 75 ? 1 : 0);
+  });
+  const auto walls = MakeWalls(tube);
+  const auto start = Copy(*walls);
+  const auto radii = [](const Walls & of) { // mean, and deviation
+    double sum = 0.0;
+    double squares = 0.0;
+    double count = 0.0;
+    for (const auto & point : of.GetPoints())
+    {
+      if (point[2] > 12.0f && point[2] < 68.0f)
+      {
+        const double radius = std::hypot(point[0] - 8.0, point[1] - 8.0);
+        sum += radius;
+        squares += radius * radius;
+        ++count;
+      }
+    }
+    return std::array{ sum / count, std::sqrt(squares / count - sum / count * sum / count) };
+  };
+  auto settings = MovesUpTo(2.0);
+  settings.iterations = 40;
+  RelaxLabelWalls(*walls, settings);
+  ExpectSoundWalls(*walls, *tube);
+  EXPECT_NEAR(radii(*walls)[0], radii(*start)[0], 0.1);
+  EXPECT_LT(radii(*walls)[1], 0.5 * radii(*start)[1]);
+  EXPECT_LT(ComputeTriangleSurfaceBending(*walls), 0.7 * ComputeTriangleSurfaceBending(*start));
+  EXPECT_NEAR(walls->ComputeVolumes()[1], start->ComputeVolumes()[1], 1e-3 * start->ComputeVolumes()[1]);
+}
+
+TEST(LabelWallsEditing, PointsStayInTheEllipsoidOfTheHalfAxes)
+{
+  const auto image = MakeBlobs(Region(0, 9, 18, 18), 4, 5);
+  const auto walls = MakeWalls(image);
+  const auto start = Copy(*walls);
+  auto settings = MovesUpTo(3.0);
+  settings.iterations = 40;
+  settings.halfAxes = { { { 0.12, 0.16, 0.0 }, { -0.24, 0.18, 0.0 }, { 0.0, 0.0, 2.0 } } }; // 0.2, 0.3 and 2 mm long
+  const auto report = RelaxLabelWalls(*walls, settings);
+  EXPECT_GT(report.pointsAtLimit, 0u);
+  EXPECT_GT(report.largestMove, 0.31) << "along the longest axis";
+  for (std::size_t point = 0; point < start->GetNumberOfPoints(); ++point)
+  {
+    const auto & a = start->GetPoints()[point];
+    const auto & b = walls->GetPoints()[point];
+    const std::array<double, 3> way{ double{ b[0] } - a[0], double{ b[1] } - a[1], double{ b[2] } - a[2] };
+    ASSERT_LE(std::hypot((0.6 * way[0] + 0.8 * way[1]) / 0.2, (-0.8 * way[0] + 0.6 * way[1]) / 0.3, way[2] / 2.0),
+              1.0 + 1e-9);
+  }
+  settings.halfAxes->back() = { 0.1, 0.2, 0.0 };
+  EXPECT_THROW(RelaxLabelWalls(*walls, settings), itk::ExceptionObject) << "three axes in a plane";
+}
+
 TEST(LabelWallsEditing, WallsOfANarrowGapDoNotMeet)
 {
   const auto slabs = MakeLabels(Region(0, 9, 18, 18), [](const itk::Index<3> & index) {

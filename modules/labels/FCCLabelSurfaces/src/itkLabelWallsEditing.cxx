@@ -1,6 +1,6 @@
 #include "itkLabelWallsEditing.h"
 
-#include "detail/itkBoundedMoves.h"
+#include "detail/itkSheetSmoothing.h"
 #include "itkLabelVolumes.h"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ RestoreVolumes(const LabelWalls & walls,
   progress.Begin(stageEnd, MostCorrections * walls.GetNumberOfPoints());
   LabelVolumes volumes(wanted);
   std::vector<double> last(wanted.size(), std::numeric_limits<double>::infinity());
-  const auto isMovable = [least = SmallestLayer * moves.GetMaximumMove()](double layer, double before) {
+  const auto isMovable = [least = SmallestLayer * moves.GetBound().GetLeast()](double layer, double before) {
     return std::abs(layer) > least && std::abs(layer) < 0.9 * std::abs(before); // clearly thinner than before
   };
   for (unsigned int n = 0; n < MostCorrections; ++n)
@@ -82,8 +82,8 @@ RelaxLabelWalls(LabelWalls & walls,
   }
   const TrianglesOfPoints fans(walls);
   const PointStrata strata = FindStrata(walls, fans);
-  BoundedMoves moves(walls, fans, settings.maximumMove);
-  TakeSmoothingSteps(walls, fans, strata, settings.iterations, moves, progress, 0.5);
+  BoundedMoves moves(walls, fans, MoveBound(settings));
+  SmoothSheets(walls, fans, strata, settings.iterations, moves, progress, 0.5);
   RestoreVolumes(walls, wanted, fans, strata, moves, progress, 0.8);
   moves.PutBackMeeting(progress, 1.0);
   walls.Modified();

@@ -63,8 +63,10 @@ struct LabelMesh
  * their wall. Labels that overlap are in layers, each of which has its own walls. The surfaces of the labels are set by
  * ExtractSurfaces().
  *
- * The walls are those of itk::LabelsToFCCFilter and itk::FCCLabelSurfaceFilter, smoothed by itk::RelaxLabelWalls(),
- * which moves points by 0.3 voxels at most. Labels above 1 ml have the volume of their voxels within 1 %. Pieces of a
+ * The walls are those of itk::LabelsToFCCFilter and itk::FCCLabelSurfaceFilter, smoothed by itk::RelaxLabelWalls().
+ * It moves points within an ellipsoid whose half axes are the edges of a voxel: a pixel in plane, a slice along. So what
+ * a hand on thick slices leaves behind goes, notches and steps; vessels and sheets stay. Labels above 1 ml have the
+ * volume of their voxels within 0.1 %. Pieces of a
  * label that do not touch are not joined. Where the map has probabilities, the walls are those of
  * itk::ProbabilitiesToFCCFilter instead, as they are: labels that are not chosen have walls to the others all the same.
  *
@@ -79,7 +81,7 @@ LabelMesh
 LabelsToWalls(const LabelMap & map, const LabelSurfaceSettings & settings, const Events & events);
 
 /** Smooths and simplifies the walls as \a finish says, once for both labels of each wall, so that labels that touch
- * still share it (itk::RelaxLabelWalls(), itk::SimplifyLabelWalls()). A limit of triangles is one for all walls
+ * still share it (itk::RelaxLabelWalls(), itk::SimplifyLabelWalls()). That is beyond what LabelsToWalls() smooths. A limit of triangles is one for all walls
  * together, of which each layer gets a share by its triangles, at least one. Removes no parts. Notes give the results,
  * of which there is one for each layer.
  *

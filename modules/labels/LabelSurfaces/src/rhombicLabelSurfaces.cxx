@@ -94,12 +94,40 @@ EstimateMemory(const LabelImage & labels, TFilter & filter, double density)
                                      changes * bytesPerChange * std::max(1.0, density));
 }
 
+/** How the walls of a label map are smoothed: no point leaves the ellipsoid around it whose half axes are the edges of
+ * a voxel, as far as a border that is drawn by hand may be off. */
+itk::TriangleSurfaceSmoothingSettings
+RelaxationByVoxels(const itk::ImageBase<3> & grid)
+{
+  itk::TriangleSurfaceSmoothingSettings settings;
+  settings.iterations = 40;
+  auto & edges = settings.halfAxes.emplace();
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    const auto step = StepAlong(grid, axis);
+    edges[axis] = { step[0], step[1], step[2] };
+    settings.maximumMove = std::max(settings.maximumMove, grid.GetSpacing()[axis]);
+  }
+  return settings;
+}
+
+/** How the walls of probabilities are smoothed, which are near the truth already. */
+itk::TriangleSurfaceSmoothingSettings
+RelaxationByProbabilities(const itk::ImageBase<3> & grid)
+{
+  itk::TriangleSurfaceSmoothingSettings settings;
+  settings.iterations = 10;
+  settings.maximumMove = 0.3 * MeanSpacingOf(grid);
+  return settings;
+}
+
 /** The walls between labels on a lattice, smoothed.
- * \param voxel the edge of a cube of a voxel's volume
  * \param volumes of labels, which smoothing keeps; or empty */
 template <typename TFilter>
 itk::LabelWalls::Pointer
-ExtractWalls(TFilter & toLattice, double voxel, const std::vector<double> & volumes)
+ExtractWalls(TFilter & toLattice,
+             const itk::TriangleSurfaceSmoothingSettings & relaxation,
+             const std::vector<double> & volumes)
 {
   toLattice.ReleaseDataFlagOn();
   const auto extract = itk::FCCLabelSurfaceFilter::New();
@@ -108,9 +136,6 @@ ExtractWalls(TFilter & toLattice, double voxel, const std::vector<double> & volu
   extract->Update();
   itk::LabelWalls::Pointer walls = extract->GetOutput();
   walls->DisconnectPipeline();
-  itk::TriangleSurfaceSmoothingSettings relaxation;
-  relaxation.iterations = 10;
-  relaxation.maximumMove = 0.3 * voxel;
   itk::RelaxLabelWalls(*walls, relaxation, volumes);
   return walls;
 }
@@ -135,7 +160,7 @@ WallsOfVoxels(const LabelImage & numbers,
                 "use a coarser lattice, or crop the label map");
   ObserveProgress(*toLattice, "extracting labels", events);
   toLattice->Update();
-  itk::LabelWalls::Pointer walls = ExtractWalls(*toLattice, MeanSpacingOf(numbers), toLattice->GetVoxelVolumes());
+  itk::LabelWalls::Pointer walls = ExtractWalls(*toLattice, RelaxationByVoxels(numbers), toLattice->GetVoxelVolumes());
   walls->MergeLabels(pieces.labels);
   return walls;
 }
@@ -174,7 +199,7 @@ WallsOfProbabilities(const LabelMap & map,
     "use a coarser lattice, or crop the volumes of probabilities");
   ObserveProgress(*toLattice, "extracting labels", events);
   toLattice->Update();
-  itk::LabelWalls::Pointer walls = ExtractWalls(*toLattice, MeanSpacingOf(*map.probabilities.front()), {});
+  itk::LabelWalls::Pointer walls = ExtractWalls(*toLattice, RelaxationByProbabilities(*map.probabilities.front()), {});
   std::vector<std::uint16_t> chosen(map.probabilities.size() + 1);
   for (std::size_t n = 0; n < labels.size(); ++n)
   {
@@ -184,24 +209,32 @@ WallsOfProbabilities(const LabelMap & map,
   return walls;
 }
 
-/** Sets unit normals: the mean of the triangles' at each point, by their areas. */
+/** Sets unit normals: the mean of the triangles' at each point, by their angles there and their quality. Slivers, as
+ * they occur where three labels meet, count little: which way they face says nothing of the surface. */
 void
 SetNormals(itk::TriangleSurface & surface)
 {
   std::vector<itk::PositionType> sums(surface.GetNumberOfPoints());
   for (const auto & triangle : surface.GetTriangles())
   {
-    const itk::PositionType normal = itk::AreaVector(itk::CornersOf(surface, triangle));
-    for (const std::uint32_t point : triangle)
+    const itk::CornersType corners = itk::CornersOf(surface, triangle);
+    const itk::PositionType normal = itk::AreaVector(corners);
+    const double twiceArea = itk::Length(normal);
+    const double quality = itk::ComputeTriangleQuality(corners[0], corners[1], corners[2]);
+    for (unsigned int corner = 0; corner < 3 && twiceArea > 0.0; ++corner)
     {
-      sums[point] = itk::Add(sums[point], normal);
+      const itk::PositionType & here = corners[corner];
+      const double cosine =
+        Dot(Subtract(corners[(corner + 1) % 3], here), Subtract(corners[(corner + 2) % 3], here)); // times both sides
+      sums[triangle[corner]] =
+        Along(sums[triangle[corner]], normal, quality * std::atan2(twiceArea, cosine) / twiceArea);
     }
   }
   for (const itk::PositionType & sum : sums)
   {
     const double length = itk::Length(sum);
-    const itk::PositionType normal{ sum[0] / length, sum[1] / length, sum[2] / length };
-    surface.GetNormals().push_back(itk::ToPoint(length > 0.0 ? normal : itk::PositionType{ 0.0, 0.0, 1.0 }));
+    surface.GetNormals().push_back(
+      itk::ToPoint(length > 0.0 ? itk::Scaled(sum, 1.0 / length) : itk::PositionType{ 0.0, 0.0, 1.0 }));
   }
 }
 

@@ -4,6 +4,9 @@
 #include "itkTriangleSurface.h"
 #include "rhombicForEachBlock.h"
 
+#include <array>
+#include <optional>
+
 namespace itk
 {
 
@@ -14,7 +17,11 @@ struct TriangleSurfaceSmoothingSettings
   unsigned int iterations = 20; ///< pairs of one step inwards and one step outwards
   double maximumMove = 0.0;     ///< largest distance of a point from its start in mm, finite and not negative
 
-  /** Throws ExceptionObject if maximumMove is negative or not finite. */
+  /** The half axes in mm of an ellipsoid around its start that a point may not leave either, such as the edges of a
+   * voxel: three directions in space. Default: no such ellipsoid. */
+  std::optional<std::array<std::array<double, 3>, 3>> halfAxes = std::nullopt;
+
+  /** Throws ExceptionObject if maximumMove is negative or not finite, or halfAxes are in one plane or not finite. */
   void
   Verify() const;
 };
@@ -25,7 +32,7 @@ struct TriangleSurfaceSmoothingReport
 {
   double meanMove = 0.0;            ///< mm, over all points
   double largestMove = 0.0;         ///< mm, never above maximumMove
-  SizeValueType pointsAtLimit = 0;  ///< points that maximumMove has stopped
+  SizeValueType pointsAtLimit = 0;  ///< points that maximumMove or halfAxes have stopped
   SizeValueType pointsOnBorder = 0; ///< points that do not move: on open borders, at ends of curves
 };
 
@@ -34,7 +41,7 @@ struct TriangleSurfaceSmoothingReport
  *
  * Where three or more sheets meet in a curve, its points move towards the mean of their two neighbours on the curve.
  *
- * No point moves farther than maximumMove. The points of a triangle that would turn by 80 degrees or more, or lose more
+ * No point moves farther than maximumMove, or out of the ellipsoid of halfAxes. The points of a triangle that would turn by 80 degrees or more, or lose more
  * than nine tenths of its area, stay where they are. Points on open borders, where curves meet, and where
  * parts touch in one point, stay. Triangles keep their points and order. Normals, if there were any, are computed anew:
  * the triangles' normals weighted by the angle at the point.

@@ -36,10 +36,23 @@ SumNormals(const TriangleSurface::PointsContainer & points, const TrianglesOfPoi
 
 } // namespace
 
-BoundedMoves::BoundedMoves(TriangleSurface & surface, const TrianglesOfPoints & fans, double maximumMove)
+MoveBound::MoveBound(const TriangleSurfaceSmoothingSettings & settings)
+  : m_PerMove(1.0 / settings.maximumMove)
+  , m_Least(settings.maximumMove)
+{
+  if (settings.halfAxes)
+  {
+    const auto & [a, b, c] = *settings.halfAxes;
+    const double perVolume = 1.0 / FindVolume(*settings.halfAxes);
+    m_ToUnit = { Scaled(Cross(b, c), perVolume), Scaled(Cross(c, a), perVolume), Scaled(Cross(a, b), perVolume) };
+    m_Least = std::min({ m_Least, Length(a), Length(b), Length(c) });
+  }
+}
+
+BoundedMoves::BoundedMoves(TriangleSurface & surface, const TrianglesOfPoints & fans, const MoveBound & bound)
   : m_Surface(surface)
   , m_Fans(fans)
-  , m_MaximumMove(maximumMove)
+  , m_Bound(bound)
   , m_Start(surface.GetPoints())
   , m_StartAreas(surface.GetNumberOfTriangles())
   , m_Next(surface.GetPoints())
@@ -49,13 +62,13 @@ BoundedMoves::BoundedMoves(TriangleSurface & surface, const TrianglesOfPoints & 
   });
 }
 
-/** The position itself, or the nearest position that is not too far from \a start. */
+/** The position itself, or the last position on the way from \a start that is in bounds. */
 BoundedMoves::PointType
 BoundedMoves::LimitMove(const PointType & start, PointType position) const
 {
   const PositionType way = Subtract(ToPosition(position), ToPosition(start));
-  double reach = m_MaximumMove / Length(way);
-  while (Distance(ToPosition(position), ToPosition(start)) > m_MaximumMove)
+  double reach = 1.0 / m_Bound.Measure(way);
+  while (m_Bound.Measure(Subtract(ToPosition(position), ToPosition(start))) > 1.0)
   {
     position = Move(start, reach, way);
     reach -= 1e-3 * reach; // rounding to float may exceed the limit slightly
@@ -77,68 +90,114 @@ BoundedMoves::IsSpoilt(std::uint32_t triangle) const
            squareAfter >= SmallestShareOfArea * SmallestShareOfArea * squareBefore);
 }
 
-void
-BoundedMoves::FinishStep()
-{
-  const auto findSpoilt = [this](std::size_t begin, std::size_t end, std::vector<std::uint32_t> & spoilt) {
-    for (auto id = static_cast<std::uint32_t>(begin); id < end; ++id)
-    {
-      if (this->IsSpoilt(id))
-      {
-        spoilt.push_back(id);
-      }
-    }
-  };
-  this->PutBack(CollectIds(m_Surface.GetNumberOfTriangles(), MovedBlock, findSpoilt));
-  m_Surface.GetPoints().swap(m_Next);
-}
-
-/** Puts the next points of some triangles back to the surface's points. That may spoil other triangles at these points:
- * puts them back, too. Returns the points that were put back. */
 std::vector<std::uint32_t>
-BoundedMoves::PutBack(std::vector<std::uint32_t> spoilt)
+BoundedMoves::FindSpoilt() const
 {
-  std::vector<std::uint32_t> putBack;
-  for (std::size_t done = 0; !spoilt.empty(); done = putBack.size())
-  {
-    for (const std::uint32_t id : spoilt)
-    {
-      for (const std::uint32_t point : std::as_const(m_Surface).GetTriangles()[id])
+  return CollectIds(
+    m_StartAreas.size(), MovedBlock, [this](std::size_t begin, std::size_t end, std::vector<std::uint32_t> & spoilt) {
+      for (auto id = static_cast<std::uint32_t>(begin); id < end; ++id)
       {
-        if (m_Next[point] != m_Surface.GetPoints()[point])
-        {
-          m_Next[point] = m_Surface.GetPoints()[point];
-          putBack.push_back(point);
-        }
-      }
-    }
-    spoilt.clear();
-    for (std::size_t n = done; n < putBack.size(); ++n)
-    {
-      m_Fans.VisitTriangles(putBack[n], [&](std::uint32_t id) {
         if (this->IsSpoilt(id))
         {
           spoilt.push_back(id);
         }
-      });
-    }
-  }
-  return putBack;
+      }
+    });
 }
 
-/** Puts the points of some triangles back to their start, and those of triangles that have then turned or shrunk too
- * much. Returns the triangles at points that had moved, ascending. */
-std::vector<std::uint32_t>
-BoundedMoves::PutBackToStart(const std::vector<std::uint32_t> & triangles)
+/** Puts the next points of spoilt triangles back to the surface's points. That may spoil other triangles at these
+ * points: puts them back, too. */
+void
+BoundedMoves::FinishStep()
 {
-  m_Next.swap(m_Surface.GetPoints());
-  m_Surface.GetPoints() = m_Start;
-  std::vector<std::uint32_t> changed;
-  for (const std::uint32_t point : this->PutBack(triangles))
+  auto spoilt = this->FindSpoilt();
+  while (!spoilt.empty())
   {
-    m_Fans.VisitTriangles(point, [&](std::uint32_t id) { changed.push_back(id); });
+    std::vector<std::uint32_t> next;
+    for (const std::uint32_t point : this->FindCorners(spoilt))
+    {
+      if (m_Next[point] != m_Surface.GetPoints()[point])
+      {
+        m_Next[point] = m_Surface.GetPoints()[point];
+        m_Fans.VisitTriangles(point, [&](std::uint32_t id) { next.push_back(id); });
+      }
+    }
+    SortUnique(next);
+    next.erase(std::remove_if(next.begin(), next.end(), [this](std::uint32_t id) { return !this->IsSpoilt(id); }),
+               next.end());
+    spoilt.swap(next);
   }
   m_Surface.GetPoints().swap(m_Next);
+}
+
+/** The points of some triangles, ascending. */
+std::vector<std::uint32_t>
+BoundedMoves::FindCorners(const std::vector<std::uint32_t> & triangles) const
+{
+  std::vector<std::uint32_t> corners;
+  for (const std::uint32_t id : triangles)
+  {
+    const auto & triangle = std::as_const(m_Surface).GetTriangles()[id];
+    corners.insert(corners.end(), triangle.begin(), triangle.end());
+  }
+  SortUnique(corners);
+  return corners;
+}
+
+/** Begins retreats from the next points. */
+void
+BoundedMoves::BeginRetreats()
+{
+  m_Moved = m_Next;
+  m_Retreats.assign(m_Moved.size(), 0);
+}
+
+/** Moves the next points of some triangles a quarter of their way back towards the start, and so on until no triangle
+ * is spoilt. Neighbours differ by one quarter at most. Returns the triangles at points that have moved, ascending. */
+std::vector<std::uint32_t>
+BoundedMoves::Retreat(std::vector<std::uint32_t> triangles)
+{
+  std::vector<std::uint32_t> changed;
+  while (!triangles.empty())
+  {
+    std::vector<std::uint32_t> points = this->FindCorners(triangles);
+    points.erase(std::remove_if(points.begin(),
+                                points.end(),
+                                [this](std::uint32_t point) { return m_Retreats[point] == MostRetreats; }),
+                 points.end());
+    for (const std::uint32_t point : points)
+    {
+      ++m_Retreats[point];
+    }
+    for (std::size_t n = 0; n < points.size(); ++n)
+    {
+      const auto least = static_cast<std::uint8_t>(m_Retreats[points[n]] - 1);
+      m_Fans.VisitNeighbours(points[n], [&](std::uint32_t next, std::uint32_t last) {
+        for (const std::uint32_t other : { next, last })
+        {
+          if (m_Retreats[other] < least)
+          {
+            m_Retreats[other] = least;
+            points.push_back(other);
+          }
+        }
+      });
+    }
+    triangles.clear();
+    SortUnique(points);
+    for (const std::uint32_t point : points)
+    {
+      const double share = 1.0 - static_cast<double>(m_Retreats[point]) / MostRetreats;
+      const PositionType way = Subtract(ToPosition(m_Moved[point]), ToPosition(m_Start[point]));
+      m_Next[point] = share > 0.0 ? Move(m_Start[point], share, way) : m_Start[point];
+      m_Fans.VisitTriangles(point, [&](std::uint32_t id) { triangles.push_back(id); });
+    }
+    SortUnique(triangles);
+    changed.insert(changed.end(), triangles.begin(), triangles.end());
+    triangles.erase(
+      std::remove_if(triangles.begin(), triangles.end(), [this](std::uint32_t id) { return !this->IsSpoilt(id); }),
+      triangles.end());
+  }
   SortUnique(changed);
   return changed;
 }
@@ -148,11 +207,14 @@ BoundedMoves::PutBackMeeting(rhombic::StagedProgress & progress, double stageEnd
 {
   const TriangleTree tree(m_Surface); // keeps the places that triangles had before they are put back
   std::set<std::uint32_t> putBack;
+  m_Next = m_Surface.GetPoints();
+  this->BeginRetreats();
   auto meeting = FindCrossingTriangles(tree, m_Fans, TriangleContact::Touching, &progress, stageEnd);
   while (!meeting.empty())
   {
     progress.Completed(0);
-    const auto latest = this->PutBackToStart(meeting);
+    const auto latest = this->Retreat(meeting);
+    m_Surface.GetPoints() = m_Next;
     putBack.insert(latest.begin(), latest.end());
     const TriangleTree others(m_Surface, { putBack.begin(), putBack.end() });
     meeting = FindCrossingTriangles(tree, latest, TriangleContact::Touching);
@@ -177,10 +239,11 @@ BoundedMoves::Finish(const PointStrata & strata)
   TriangleSurfaceSmoothingReport report;
   for (std::size_t point = 0; point < points.size(); ++point)
   {
-    const double move = Distance(ToPosition(points[point]), ToPosition(m_Start[point]));
+    const PositionType way = Subtract(ToPosition(points[point]), ToPosition(m_Start[point]));
+    const double move = Length(way);
     report.meanMove += move / static_cast<double>(points.size());
     report.largestMove = std::max(report.largestMove, move);
-    report.pointsAtLimit += move > 0.999 * m_MaximumMove ? 1 : 0;
+    report.pointsAtLimit += m_Bound.Measure(way) > 0.999 ? 1 : 0;
     report.pointsOnBorder += strata.strata[point] == Stratum::Fixed ? 1 : 0;
   }
   return report;

@@ -9,8 +9,47 @@
 namespace itk
 {
 
+/** \class MoveBound
+ * \brief How far a point may move from its start: within a ball, and within an ellipsoid if there is one. */
+class MoveBound
+{
+public:
+  using AxesType = std::array<PositionType, 3>;
+
+  explicit MoveBound(const TriangleSurfaceSmoothingSettings & settings);
+
+  /** The length of a move over the largest in its direction: above 1 out of bounds. */
+  double
+  Measure(const PositionType & way) const
+  {
+    const double measure = m_PerMove * Length(way);
+    return m_ToUnit ? std::max(measure,
+                               Length({ Dot((*m_ToUnit)[0], way), Dot((*m_ToUnit)[1], way), Dot((*m_ToUnit)[2], way) }))
+                    : measure;
+  }
+
+  /** The largest move in the direction in which it is least, in mm. */
+  double
+  GetLeast() const
+  {
+    return m_Least;
+  }
+
+  /** The volume of the box with some edges. */
+  static double
+  FindVolume(const AxesType & edges)
+  {
+    return Dot(edges[0], Cross(edges[1], edges[2]));
+  }
+
+private:
+  double m_PerMove;                 ///< 1 / mm; infinite if no move is allowed
+  std::optional<AxesType> m_ToUnit; ///< the rows of the matrix that makes the ellipsoid the ball of radius 1
+  double m_Least;
+};
+
 /** \class BoundedMoves
- * \brief Moves the points of a surface in steps, none farther from its start than a distance.
+ * \brief Moves the points of a surface in steps, none out of a bound around its start.
  *
  * The points of a triangle that would turn by 80 degrees or more since the start, or lose more than nine tenths of its
  * area, stay where they are in that step. The same for any number of threads. */
@@ -21,13 +60,13 @@ public:
   using PointType = TriangleSurface::PointType;
 
   /** \param fans the triangles at the points of the surface; both must live longer
-   *  \param maximumMove in mm */
-  BoundedMoves(TriangleSurface & surface, const TrianglesOfPoints & fans, double maximumMove);
+   */
+  BoundedMoves(TriangleSurface & surface, const TrianglesOfPoints & fans, const MoveBound & bound);
 
-  double
-  GetMaximumMove() const
+  const MoveBound &
+  GetBound() const
   {
-    return m_MaximumMove;
+    return m_Bound;
   }
 
   /** Moves each point to find(point), which may be called on several threads at once, or as near as it may go. Counts
@@ -36,21 +75,26 @@ public:
   void
   Step(const TFind & find, rhombic::StagedProgress & progress)
   {
-    rhombic::ForEachBlock(m_Next.size(), MovedBlock, [&](SizeValueType begin, SizeValueType end) {
-      for (SizeValueType point = begin; point < end; ++point)
-      {
-        const PointType position = find(point);
-        const PositionType way = Subtract(ToPosition(position), ToPosition(m_Start[point]));
-        const bool isNear = Dot(way, way) < 0.999 * m_MaximumMove * m_MaximumMove;
-        m_Next[point] = isNear ? position : this->LimitMove(m_Start[point], position);
-      }
-      progress.Completed(end - begin);
-    });
+    this->FindNext(find, progress);
     this->FinishStep();
   }
 
-  /** Puts the points of triangles that meet others, elsewhere than at shared corners and sides, back to their start,
-   * until the triangles that meet are all at their start. It is one stage of the progress. */
+  /** Moves each point to find(point), as Step() does, or as far as triangles at it and around it may turn and shrink:
+   * where one of them may not, a point and those around it move a quarter less, two quarters less and so on, so that
+   * no point is left behind alone. */
+  template <typename TFind>
+  void
+  MoveTowards(const TFind & find, rhombic::StagedProgress & progress)
+  {
+    this->FindNext(find, progress);
+    this->BeginRetreats();
+    this->Retreat(this->FindSpoilt());
+    m_Surface.GetPoints().swap(m_Next);
+  }
+
+  /** Moves the points of triangles that meet others, elsewhere than at shared corners and sides, back towards their
+   * start as MoveTowards() does, until the triangles that meet are all at their start. It is one stage of the progress.
+   */
   void
   PutBackMeeting(rhombic::StagedProgress & progress, double stageEnd);
 
@@ -67,35 +111,47 @@ public:
 
 private:
   static constexpr SizeValueType MovedBlock = 4096;
+  static constexpr std::uint8_t MostRetreats = 4;
+
+  template <typename TFind>
+  void
+  FindNext(const TFind & find, rhombic::StagedProgress & progress)
+  {
+    rhombic::ForEachBlock(m_Next.size(), MovedBlock, [&](SizeValueType begin, SizeValueType end) {
+      for (SizeValueType point = begin; point < end; ++point)
+      {
+        const PointType position = find(point);
+        const PositionType way = Subtract(ToPosition(position), ToPosition(m_Start[point]));
+        m_Next[point] = m_Bound.Measure(way) < 0.999 ? position : this->LimitMove(m_Start[point], position);
+      }
+      progress.Completed(end - begin);
+    });
+  }
 
   PointType
   LimitMove(const PointType & start, PointType position) const;
   bool
   IsSpoilt(std::uint32_t triangle) const;
+  std::vector<std::uint32_t>
+  FindSpoilt() const;
   void
   FinishStep();
   std::vector<std::uint32_t>
-  PutBack(std::vector<std::uint32_t> spoilt);
+  FindCorners(const std::vector<std::uint32_t> & triangles) const;
+  void
+  BeginRetreats();
   std::vector<std::uint32_t>
-  PutBackToStart(const std::vector<std::uint32_t> & triangles);
+  Retreat(std::vector<std::uint32_t> triangles);
 
   TriangleSurface & m_Surface;
   const TrianglesOfPoints & m_Fans;
-  const double m_MaximumMove;
+  const MoveBound m_Bound;
   const Points m_Start;
   std::vector<PositionType> m_StartAreas; ///< of the triangles, see AreaVector()
   Points m_Next;
+  Points m_Moved;                       ///< from where points retreat
+  std::vector<std::uint8_t> m_Retreats; ///< of each point: quarters of its way back to the start
 };
-
-/** The steps of SmoothTriangleSurface(), as one stage of the progress. */
-void
-TakeSmoothingSteps(const TriangleSurface & surface,
-                   const TrianglesOfPoints & fans,
-                   const PointStrata & strata,
-                   unsigned int iterations,
-                   BoundedMoves & moves,
-                   rhombic::StagedProgress & progress,
-                   double stageEnd);
 
 } // namespace itk
 
