@@ -400,7 +400,7 @@ TEST_F(ScenePicture, SeventeenthWallIsLeftOut)
   std::vector<SceneSurface> shells;
   for (int n = 0; n < 16; ++n)
   {
-    shells.push_back(Item(Sphere({ 0, 0, 0 }, 50.0 - 2.0 * n), Red, 0.02));
+    shells.push_back(Item(Sphere({ 0, 0, 0 }, 50.0 - 2.0 * n), Red, 0.04));
   }
   const Picture sixteen = Draw(m_Renderer, shells, Plain());
   EXPECT_GT(sixteen.At(100, 80)[0], 50);

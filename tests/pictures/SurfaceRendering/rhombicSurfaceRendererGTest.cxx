@@ -308,9 +308,46 @@ TEST_F(SurfaceRendererTest, TranslucentSurfaceMixesWithTheBackground)
   settings.background = { 0.0, 0.4, 1.0 };
   const auto picture = Draw(renderer, { Item(Sphere({ 0, 0, 0 }, 50), { 0.8, 0.4, 0.0 }, 0.3) }, settings);
   const auto * const centre = picture.At(100, 80);
-  EXPECT_NEAR(centre[0] / 255.0, 0.3 * 0.8, 0.1); // lit a little more than an opaque surface
-  EXPECT_NEAR(centre[1] / 255.0, 0.4, 0.1);
-  EXPECT_NEAR(centre[2] / 255.0, 0.7, 0.05);
+  EXPECT_NEAR(centre[0] / 255.0, 0.15 * 0.8, 0.02); // half of the opacity, as the wall faces the viewer
+  EXPECT_NEAR(centre[1] / 255.0, 0.4, 0.02);
+  EXPECT_NEAR(centre[2] / 255.0, 0.85, 0.02);
+}
+
+TEST_F(SurfaceRendererTest, MeanOpacityOfASphereIsTheNamedOne)
+{
+  SurfaceRenderer renderer;
+  auto settings = Small();
+  settings.style = PictureStyle::Transparent;
+  for (const double opacity : { 0.1, 0.3, 0.6, 0.9 })
+  {
+    const auto picture = Draw(renderer, { Item(Sphere({ 0, 0, 0 }, 50), Red, opacity) }, settings);
+    const double radius = 0.48 * picture.height; // margins take 0.02 on each side
+    double sum = 0.0;
+    for (std::size_t n = 3; n < picture.pixels.size(); n += 4)
+    {
+      sum += picture.pixels[n] / 255.0;
+    }
+    EXPECT_NEAR(sum / (std::acos(-1.0) * radius * radius), opacity, 0.02) << opacity;
+    EXPECT_NEAR(picture.At(100, 80)[3] / 255.0, 0.5 * opacity, 0.01) << opacity;
+  }
+}
+
+TEST_F(SurfaceRendererTest, WhiteSurfacesKeepTheirRelief)
+{
+  SurfaceRenderer renderer;
+  for (const PictureStyle style : { PictureStyle::Clinic, PictureStyle::Paper })
+  {
+    for (const bool isGlossy : { false, true })
+    {
+      auto settings = Small();
+      settings.style = style;
+      settings.background = { 0, 0, 0 };
+      SceneSurface ball = Item(Sphere({ 0, 0, 0 }, 50), { 1, 1, 1 });
+      ball.isGlossy = isGlossy;
+      const auto picture = Draw(renderer, { ball }, settings);
+      EXPECT_LT(*std::max_element(picture.pixels.begin(), picture.pixels.end()), 250);
+    }
+  }
 }
 
 TEST_F(SurfaceRendererTest, NestedTranslucentSurfacesAreInOrder)

@@ -16,7 +16,14 @@ class vtkRhombicOpaquePass;
  * vtkVolumetricPass afterwards, and it lies over the surface.
  *
  * With lights of the renderer, surfaces are blended as VTK blends them. With the lights that go with the camera, only
- * the near walls of surfaces are drawn, and they are more opaque where they are seen from the side.
+ * the near walls of surfaces are drawn, and opacity follows the angle: half of an actor's opacity o where the wall
+ * faces the viewer, so that what is inside is clear, and 1 at the outline, so that the shape is seen. It is Schlick's
+ * form of Fresnel's reflection (An inexpensive BRDF model for physically-based rendering, Computer Graphics Forum 13,
+ * 1994),
+ *
+ *     o / 2 + (1 - o / 2) (1 - cos angle)^p, p = (sqrt(16 / o - 7) - 3) / 2
+ *
+ * whose exponent p, 5 for glass, is such that the mean over the picture of a sphere is o. An opacity of 1 stays 1.
  *
  * @sa vtkRhombicOpaquePass vtkRhombicSurfacePass
  */

@@ -57,6 +57,7 @@ void main()
 )";
 
 constexpr const char * LitByOwnLight = R"(
+#define KNEE 0.8
 uniform vec4 light; // strength of key, fill, sky and rim
 uniform vec2 shine; // strength of wide and narrow highlights
 
@@ -72,8 +73,12 @@ vec3 Lit(vec3 colour, vec3 normal)
   halfway *= halfway;
   float wide = halfway * halfway;
   float narrow = wide * wide * wide * wide;
-  return colour * (light.x * key + light.y * fill + light.z * (1.0 + 0.3 * normal.y) + light.w * rim * rim) +
+  vec3 lit = colour * (light.x * key + light.y * fill + light.z * (1.0 + 0.3 * normal.y) + light.w * rim * rim) +
     shine.x * wide + shine.y * narrow;
+  // From KNEE on, the strongest channel m follows 1 - (1 - KNEE)^2 / (m + 1 - 2 KNEE), which begins with the same slope
+  // and never reaches 1: white surfaces keep their relief, and all colours their hue.
+  float strongest = max(max(lit.r, lit.g), max(lit.b, KNEE));
+  return lit * ((1.0 - (1.0 - KNEE) * (1.0 - KNEE) / (strongest + 1.0 - 2.0 * KNEE)) / strongest);
 }
 )";
 
@@ -116,9 +121,9 @@ void main()
   gl_FragData[0] = vec4(LitByRenderer(colour.rgb, normal, side), colour.a);
 #else
 #if TRANSLUCENT
-  // Light passes 1 / cos(angle) times as much of a thin wall. So a translucent skin is clear where it faces the
-  // viewer, and its outline is visible.
-  colour.a = 1.0 - pow(1.0 - colour.a, 1.0 / max(abs(normal.z), 0.15));
+  // See vtkRhombicTranslucentPass.
+  float exponent = 0.5 * (sqrt(16.0 / colour.a - 7.0) - 3.0);
+  colour.a = mix(pow(1.0 - min(abs(normal.z), 1.0), exponent), 1.0, 0.5 * colour.a);
 #endif
   gl_FragData[0] = vec4(Lit(gl_FrontFacing ? colour.rgb : 0.85 * colour.rgb, normal), colour.a);
 #endif
