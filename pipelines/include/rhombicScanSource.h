@@ -58,6 +58,10 @@ struct SurfaceSelection
   itk::FCCIsosurfaceMode mode = itk::FCCIsosurfaceMode::Lean;
 };
 
+/** Whether the opacity of a surface or label of this name was asked for, by its request or by a rule. */
+bool
+HasOwnOpacity(const SurfaceSelection & selection, const std::string & name);
+
 /** Reads a scan, without notes. Throws Failure. */
 Scan
 ReadScan(const ScanSource & source, const Events & events);

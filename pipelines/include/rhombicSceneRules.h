@@ -35,7 +35,6 @@ struct SceneRules
   std::vector<std::string> hidden; ///< patterns of those that are not shown
   std::vector<SceneRule> rules;    ///< later ones count more
   std::vector<std::string> needed; ///< patterns that each must fit a surface that is shown
-  bool opensEnclosing = false;     ///< makes labels translucent that enclose others and are opaque in the label table
   LabelColours colours = LabelColours::Anatomy;
 };
 

@@ -32,7 +32,8 @@ struct SurfaceRequest
   Parts parts = Parts::All;
   Colour colour{ 0.8, 0.8, 0.8 };
   double opacity = 1.0;
-  SurfaceFinish finish; ///< see CombineFinish()
+  bool hasOwnOpacity = false; ///< the opacity was asked for, so that it does not follow from what the surface hides
+  SurfaceFinish finish;       ///< see CombineFinish()
 
   /** The isovalue has to be set: see ResolveIsovalues(). */
   Threshold

@@ -79,7 +79,8 @@ ParseSurface(const YAML::Node & node)
   {
     request.colour = ParseColour(node["colour"].as<std::string>());
   }
-  request.opacity = node["opacity"] ? ReadOpacity(node["opacity"]) : 1.0;
+  request.hasOwnOpacity = node["opacity"].IsDefined();
+  request.opacity = request.hasOwnOpacity ? ReadOpacity(node["opacity"]) : 1.0;
   request.finish.minimumVolume = node["min-volume"].as<double>(0.0);
   request.finish.keepsLargestPart = node["largest"].as<bool>(false);
   request.finish.fillsCavities = node["fill"].as<bool>(false);

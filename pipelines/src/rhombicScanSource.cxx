@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -183,6 +184,19 @@ PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & sel
 }
 
 } // namespace
+
+bool
+HasOwnOpacity(const SurfaceSelection & selection, const std::string & name)
+{
+  const auto & [requests, rules] = std::tie(selection.requests, selection.rules.rules);
+  return std::any_of(
+           requests.begin(),
+           requests.end(),
+           [&name](const SurfaceRequest & request) { return request.hasOwnOpacity && request.name == name; }) ||
+         std::any_of(rules.begin(), rules.end(), [&name](const SceneRule & rule) {
+           return rule.opacity && FitsPattern(rule.pattern, name);
+         });
+}
 
 Scan
 ReadScan(const ScanSource & source, const Events & events)

@@ -1,6 +1,5 @@
 #include "rhombicSceneRules.h"
 
-#include "rhombicEnclosingLabels.h"
 #include "rhombicFailure.h"
 #include "rhombicLabelColours.h"
 #include "rhombicWording.h"
@@ -88,18 +87,6 @@ ApplyRule(const SceneRule & rule, Label & label)
     label.colour[n] = static_cast<std::uint8_t>(std::lround(255.0 * (*rule.colour)[n]));
   }
   label.opacity = rule.opacity.value_or(label.opacity);
-}
-
-void
-OpenEnclosing(LabelMap & map)
-{
-  constexpr double opacity = 0.2;
-  const std::set<std::int32_t> enclosing = FindEnclosingLabels(map);
-  for (LabelSummary & summary : map.labels)
-  {
-    const bool isOpened = summary.label.opacity == 1.0 && enclosing.count(summary.label.value) != 0;
-    summary.label.opacity = isOpened ? opacity : summary.label.opacity;
-  }
 }
 
 } // namespace
@@ -203,10 +190,6 @@ ApplySceneRules(const SceneRules & rules, std::vector<SurfaceRequest> & requests
   for (const std::string & pattern : rules.needed)
   {
     RequireFit(pattern, NamesOf(requests, labels));
-  }
-  if (map != nullptr && rules.opensEnclosing)
-  {
-    OpenEnclosing(*map);
   }
   for (const SceneRule & rule : rules.rules)
   {

@@ -175,6 +175,7 @@ ParseSurfaceRequest(const std::string & text, std::size_t number)
       throw refuse("has an opacity that is not above 0 and at most 1");
     }
     request.opacity = *opacity;
+    request.hasOwnOpacity = true;
   }
   if (fields.size() > 3)
   {

@@ -1,11 +1,10 @@
-#include "rhombicSceneRules.h"
+#include "rhombicScanSource.h"
 
 #include "rhombicFailure.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
 #include <random>
 
 namespace
@@ -159,69 +158,20 @@ TEST(SceneRules, RefuseWhatIsNoRule)
   }
 }
 
-TEST(SceneRules, LabelsThatEncloseOthersAreTranslucentUnlessARuleSaysOtherwise)
+TEST(SceneRules, OpacitiesThatWereAskedForAreKnown)
 {
-  const auto image = rhombic::CartesianImage<std::uint8_t>::New();
-  constexpr int side = 40;
-  image->SetRegions(itk::Size<3>{ { side, side, side } });
-  image->Allocate();
-  std::size_t n = 0;
-  for (int z = 0; z < side; ++z)
+  rhombic::SurfaceSelection selection;
+  selection.requests = { rhombic::ParseSurfaceRequest("bone=250.5,ivory,1", 0),
+                         rhombic::ParseSurfaceRequest("head=100,ivory", 1) };
+  selection.rules.rules = { rhombic::ParseSceneRule("liver=,1"), rhombic::ParseSceneRule("kidney*=red") };
+  for (const char * const name : { "bone", "liver" })
   {
-    for (int y = 0; y < side; ++y)
-    {
-      for (int x = 0; x < side; ++x, ++n)
-      {
-        const double radius = std::hypot(x - 19.5, y - 19.5, z - 19.5);
-        const bool isInBall = std::hypot(x - 15.5, y - 19.5, z - 19.5) < 4.0;
-        // a kidney beside, a tumour inside a liver, with skin that has holes, and a spleen on the liver's outside
-        image->GetBufferPointer()[n] = isInBall                                        ? 2
-                                       : radius < 10.0                                 ? 1
-                                       : std::hypot(x - 33, y - 19.5, z - 19.5) < 3.0  ? 3
-                                       : std::hypot(x - 19.5, y - 30, z - 19.5) < 4.0  ? 4
-                                       : radius > 17.0 && radius < 18.5 && (x + y) % 3 ? 5
-                                                                                       : 0;
-      }
-    }
+    EXPECT_TRUE(rhombic::HasOwnOpacity(selection, name)) << name;
   }
-  const auto opacitiesOf = [&image](const SceneRules & rules) {
-    LabelMap map;
-    map.scan.image = image;
-    for (const char * name : { "liver", "tumour", "kidney", "spleen", "skin" })
-    {
-      rhombic::LabelSummary summary;
-      summary.label.value = static_cast<std::int32_t>(map.labels.size() + 1);
-      summary.label.name = name;
-      map.labels.push_back(summary);
-    }
-    std::vector<SurfaceRequest> requests;
-    ApplySceneRules(rules, requests, &map);
-    std::map<std::string, bool> translucent;
-    for (const auto & summary : map.labels)
-    {
-      translucent[summary.label.name] = summary.label.opacity < 1.0;
-    }
-    return translucent;
-  };
-  using Opacities = std::map<std::string, bool>;
-  SceneRules rules;
-  const Opacities opaque = {
-    { "liver", false }, { "tumour", false }, { "kidney", false }, { "spleen", false }, { "skin", false }
-  };
-  EXPECT_EQ(opacitiesOf(rules), opaque);
-  rules.opensEnclosing = true;
-  Opacities expected = opaque;
-  expected["liver"] = expected["skin"] = true;
-  EXPECT_EQ(opacitiesOf(rules), expected);
-  rules.rules = { rhombic::ParseSceneRule("liver=,1") };
-  expected["liver"] = false;
-  EXPECT_EQ(opacitiesOf(rules), expected);
-  rules.rules.clear();
-  rules.hidden = { "tumour", "skin" };
-  EXPECT_EQ(opacitiesOf(rules), (Opacities{ { "liver", false }, { "kidney", false }, { "spleen", false } }));
-  rules.hidden.clear();
-  rules.only = { "skin" };
-  EXPECT_EQ(opacitiesOf(rules), (Opacities{ { "skin", false } }));
+  for (const char * const name : { "head", "kidney_left", "spleen" })
+  {
+    EXPECT_FALSE(rhombic::HasOwnOpacity(selection, name)) << name;
+  }
 }
 
 TEST(SceneRules, NeededNamesMustBeShown)

@@ -1,3 +1,3 @@
 itk_module(LabelMaps
   DEPENDS RhombicCommon ScanIO
-  DESCRIPTION "What a label map tells: colours that set labels that touch apart, labels that hide others, and doubts that it belongs to a scan.")
+  DESCRIPTION "What a label map tells: colours that set labels that touch apart, and doubts that it belongs to a scan.")

@@ -63,10 +63,34 @@ FindPlace(const PlaneRequest & request, const PictureScene & scene);
 std::vector<SceneSurface>
 SurfacesNamed(const std::vector<SceneSurface> & surfaces, const std::string & pattern);
 
-/** Cuts a scene: adds clip planes, and in each of them the greys of the scan inside the surfaces that are cut, in their
- * colours where there is no scan. Throws Failure(Usage) for a plane that does not meet the scene. */
+/** The planes that cut a scene. Throws Failure(Usage) for a plane that does not meet the scene. */
+std::vector<ClipPlane>
+ClipPlanesOf(const RenderScanSettings & settings, const PictureScene & source);
+
+/** Adds pictures in a scene's clip planes, those of the settings: the greys of the scan inside the surfaces that are
+ * cut, in their colours where there is no scan. */
 void
-AddCuts(const RenderScanSettings & settings, const PictureScene & source, Scene & scene);
+AddCaps(const RenderScanSettings & settings, const PictureScene & source, Scene & scene);
+
+/** The views of surfaces: those of the settings, or of a turntable. */
+std::vector<View>
+ViewsOf(const RenderScanSettings & settings);
+
+/** Makes opaque surfaces translucent that hide others from every side (see FindEnclosing()) or cover others by their
+ * names, as skin and fat do; with a note, and in the report. An opacity that was asked for stays. */
+void
+OpenEnclosing(const SurfaceSelection & selection,
+              const std::vector<ClipPlane> & cuts,
+              PictureScene & scene,
+              const Events & events);
+
+/** With a focus, chooses the view if that was asked for, and gives the settings' ghost opacity to surfaces that hide
+ * the focus in one of the views; with a note, and in the report. An opacity that was asked for stays. */
+void
+ShowFocus(const std::vector<ClipPlane> & cuts,
+          RenderScanSettings & settings,
+          PictureScene & scene,
+          const Events & events);
 
 /** Adds slices that stand in the scene. */
 void

@@ -202,19 +202,19 @@ FitToScene(const RenderScanSettings & settings,
 }
 
 std::vector<Picture>
-DrawViews(const RenderScanSettings & settings, const PictureScene & source, SurfaceRenderer & renderer)
+DrawViews(const RenderScanSettings & settings,
+          const PictureScene & source,
+          const std::vector<ClipPlane> & cuts,
+          SurfaceRenderer & renderer)
 {
   const bool isTransparent = settings.render.style == PictureStyle::Transparent;
   const Annotations annotations =
     AnnotationsOf(settings, source, { BackgroundOf(settings.render), isTransparent ? 0.0 : 1.0 });
-  std::vector<View> views = settings.turntable > 0 ? std::vector<View>() : settings.views;
-  for (std::size_t n = 0; n < settings.turntable; ++n)
-  {
-    views.push_back(ObliqueView(360.0 * static_cast<double>(n) / static_cast<double>(settings.turntable), 0.0));
-  }
+  std::vector<View> views = ViewsOf(settings);
   Scene scene;
   scene.surfaces = source.surfaces;
-  AddCuts(settings, source, scene);
+  scene.cuts = cuts;
+  AddCaps(settings, source, scene);
   AddPlanes(settings, source, scene);
   RenderSettings render = FitToScene(settings, source, scene, views, annotations);
   if (settings.turntable == 0 && settings.onlyPicture > 0)
@@ -381,6 +381,17 @@ StagePictures(const std::vector<Picture> & pictures,
 
 } // namespace
 
+std::vector<View>
+ViewsOf(const RenderScanSettings & settings)
+{
+  std::vector<View> views = settings.turntable > 0 ? std::vector<View>() : settings.views;
+  for (std::size_t n = 0; n < settings.turntable; ++n)
+  {
+    views.push_back(ObliqueView(360.0 * static_cast<double>(n) / static_cast<double>(settings.turntable), 0.0));
+  }
+  return views;
+}
+
 std::vector<fs::path>
 CheckRenderScan(const RenderScanSettings & settings)
 {
@@ -436,12 +447,17 @@ RenderScan(const RenderScanSettings & given, const Events & events, std::optiona
                 "All pictures together",
                 "choose a smaller --size, or fewer of them");
   const bool needsScan = !settings.cuts.empty() || !settings.planes.empty() || !settings.slices.empty();
-  const PictureScene scene = MakePictureScene(SourceOf(settings), std::move(volume), needsScan, events);
+  PictureScene scene = MakePictureScene(SourceOf(settings), std::move(volume), needsScan, events);
   events.Progress("rendering", 0.0);
+  const std::vector<ClipPlane> cuts = ClipPlanesOf(settings, scene);
+  OpenEnclosing(settings.source.surfaces, cuts, scene, events);
   std::vector<Picture> pictures;
   if (drawsViews)
   {
-    pictures = DrawViews(settings, scene, *renderer);
+    PictureScene seen = scene;
+    ShowFocus(cuts, settings, seen, events);
+    pictures = DrawViews(settings, seen, cuts, *renderer);
+    scene.report = std::move(seen.report);
   }
   for (std::size_t n = 0; n < settings.slices.size(); ++n)
   {

@@ -216,7 +216,8 @@ RenderSheet(const RenderSheetSettings & settings, const Events & events, std::op
   CheckMemory(settings, planes.size(), renderer);
   PictureSource source = settings.source;
   NeedPlaces(planes, source.surfaces.rules);
-  const PictureScene scene = MakePictureScene(source, std::move(volume), true, events);
+  PictureScene scene = MakePictureScene(source, std::move(volume), true, events);
+  OpenEnclosing(source.surfaces, {}, scene, events);
   events.Progress("drawing the page", 0.0);
   Sheet sheet = PlanSheet(settings, scene, planes.size());
   const SheetPlaces places = PlacesOn(sheet);

@@ -112,9 +112,10 @@ FillAreas(const PictureScene & scene, const Projection & projection)
 
 } // namespace
 
-void
-AddCuts(const RenderScanSettings & settings, const PictureScene & source, Scene & scene)
+std::vector<ClipPlane>
+ClipPlanesOf(const RenderScanSettings & settings, const PictureScene & source)
 {
+  std::vector<ClipPlane> cuts;
   const std::vector<std::string> names = NamesOfCutSurfaces(settings, source);
   if (!settings.cuts.empty() && names.empty())
   {
@@ -129,15 +130,21 @@ AddCuts(const RenderScanSettings & settings, const PictureScene & source, Scene 
     plane.normal = {};
     plane.normal[AxisOf(cut.plane.plane)] = cut.removesHigher ? 1.0 : -1.0;
     plane.surfaces = names;
-    scene.cuts.push_back(plane);
+    cuts.push_back(plane);
   }
+  return cuts;
+}
+
+void
+AddCaps(const RenderScanSettings & settings, const PictureScene & source, Scene & scene)
+{
   for (std::size_t n = 0; n < settings.cuts.size(); ++n)
   {
     const Projection projection = PlaneThrough(scene.cuts[n].point, settings.cuts[n].plane.plane, source);
     std::vector<CapSurface> cut;
     for (const SceneSurface & surface : source.surfaces)
     {
-      if (std::find(names.begin(), names.end(), surface.name) != names.end())
+      if (IsCut(surface, scene.cuts[n]))
       {
         const double tint = !source.scan ? 1.0 : surface.opacity < 1.0 ? 0.0 : 0.25;
         cut.push_back({ CutSurface(*surface.surface, projection), surface.colour, tint });

@@ -1,4 +1,3 @@
-#include "rhombicEnclosingLabels.h"
 #include "rhombicLabelColours.h"
 
 #include <gtest/gtest.h>
@@ -103,17 +102,6 @@ TEST(LabelColours, OfLabelsThatOverlapDiffer)
     LabelMap map = MakeLayers(isLumpFirst);
     rhombic::ColourLabels(map, LabelColours::Anatomy);
     EXPECT_NE(map.labels[0].label.colour, map.labels[1].label.colour);
-  }
-}
-
-TEST(EnclosingLabels, AreFoundInOtherLayersToo)
-{
-  for (const bool isLumpFirst : { false, true })
-  {
-    LabelMap map = MakeLayers(isLumpFirst);
-    EXPECT_EQ(rhombic::FindEnclosingLabels(map), std::set<std::int32_t>{ 2 });
-    map.labels[1].label.isVisible = false;
-    EXPECT_TRUE(rhombic::FindEnclosingLabels(map).empty());
   }
 }
 

@@ -23,6 +23,10 @@ struct ClipPlane
   std::vector<std::string> surfaces; ///< names of the surfaces that are cut; empty: all surfaces
 };
 
+/** Whether a plane cuts a surface, if it meets it. */
+bool
+IsCut(const SceneSurface & item, const ClipPlane & cut);
+
 /** \class ScenePlane
  * \brief A picture that stands in the scene, as a slice or the cap of a cut. It is not lit, seen from both sides, and
  * not cut. Where it has alpha, it lets light pass. */

@@ -34,12 +34,6 @@ namespace
 
 constexpr double Degrees = 57.29577951308232; // in a radian
 
-bool
-IsCut(const SceneSurface & item, const ClipPlane & cut)
-{
-  return cut.surfaces.empty() || std::find(cut.surfaces.begin(), cut.surfaces.end(), item.name) != cut.surfaces.end();
-}
-
 vtkSmartPointer<vtkActor>
 MakeSurfaceActor(const SceneSurface & item, std::size_t number, const std::vector<ClipPlane> & cuts)
 {

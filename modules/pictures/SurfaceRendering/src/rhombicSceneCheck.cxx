@@ -178,6 +178,12 @@ AdviseSize(const RenderSettings & settings, double bytes, double bytesOfPixel)
 
 } // namespace
 
+bool
+IsCut(const SceneSurface & item, const ClipPlane & cut)
+{
+  return cut.surfaces.empty() || std::find(cut.surfaces.begin(), cut.surfaces.end(), item.name) != cut.surfaces.end();
+}
+
 void
 CheckSettings(const RenderSettings & settings, int largestSide)
 {

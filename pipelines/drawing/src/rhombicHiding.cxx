@@ -1,0 +1,292 @@
+#include "rhombicHiding.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+namespace rhombic
+{
+namespace
+{
+
+constexpr int RaysAlongSide = 256;
+constexpr double EnclosedShare = 0.9; // of the rays through a surface
+constexpr double HidingShare = 0.005; // of the rays through the focus
+constexpr double LikeShare = 0.05;    // views whose shares differ by less are alike
+
+constexpr float Nothing = std::numeric_limits<float>::infinity();
+
+/** A point as rays see it: in pixels to the right and downwards, and mm along the rays. */
+using SeenPoint = std::array<float, 3>;
+
+/** The rays of a view through a box. */
+Projection
+RaysThrough(const LPSBox & box, const ViewFrame & frame)
+{
+  double longest = 0.0;
+  for (const Vector3 & side : { frame.right, frame.up })
+  {
+    double length = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      length += std::abs(side[axis]) * (box.highest[axis] - box.lowest[axis]);
+    }
+    longest = std::max(longest, length);
+  }
+  Projection rays;
+  rays.frame = frame;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    rays.centre[axis] = 0.5 * (box.lowest[axis] + box.highest[axis]);
+  }
+  rays.width = rays.height = RaysAlongSide;
+  rays.pixelSize = std::max(longest, 1e-6) / RaysAlongSide;
+  return rays;
+}
+
+Vector3
+ToVector(const itk::TriangleSurface::PointType & point)
+{
+  return { point[0], point[1], point[2] };
+}
+
+std::vector<SeenPoint>
+SeePoints(const itk::TriangleSurface & surface, const Projection & rays)
+{
+  const double depthOfCentre = Dot(rays.centre, rays.frame.look);
+  std::vector<SeenPoint> seen;
+  seen.reserve(surface.GetNumberOfPoints());
+  for (const auto & stored : surface.GetPoints())
+  {
+    const Vector3 point = ToVector(stored);
+    const PicturePosition position = rays.PositionOf(point);
+    seen.push_back({ static_cast<float>(position.x),
+                     static_cast<float>(position.y),
+                     static_cast<float>(Dot(point, rays.frame.look) - depthOfCentre) });
+  }
+  return seen;
+}
+
+/** Twice the area of a triangle in the picture, with a sign. */
+float
+AreaOf(const SeenPoint & a, const SeenPoint & b, const SeenPoint & c)
+{
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+/** The pixels along an axis, first and last, whose centres lie within a triangle's extent. */
+std::pair<int, int>
+PixelsAlong(std::size_t axis, const std::array<SeenPoint, 3> & corners, int count)
+{
+  const auto [least, most] = std::minmax({ corners[0][axis], corners[1][axis], corners[2][axis] });
+  const auto last = static_cast<float>(count);
+  return { static_cast<int>(std::ceil(std::clamp(least, 0.0f, last) - 0.5f)),
+           static_cast<int>(std::floor(std::clamp(most, 0.0f, last) - 0.5f)) };
+}
+
+/** Calls \a meet(x, y, depth) for each ray through a triangle. */
+template <typename TMeet>
+void
+MeetTriangle(const std::array<SeenPoint, 3> & corners, const Projection & rays, const TMeet & meet)
+{
+  const auto [left, right] = PixelsAlong(0, corners, rays.width);
+  const auto [top, bottom] = PixelsAlong(1, corners, rays.height);
+  const auto & [a, b, c] = corners;
+  const float area = AreaOf(a, b, c);
+  if (left > right || top > bottom || area == 0.0f)
+  {
+    return;
+  }
+  for (int y = top; y <= bottom; ++y)
+  {
+    for (int x = left; x <= right; ++x)
+    {
+      const SeenPoint ray{ static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 0.0f };
+      const float ofA = AreaOf(b, c, ray) / area;
+      const float ofB = AreaOf(c, a, ray) / area;
+      const float ofC = 1.0f - ofA - ofB;
+      if (ofA >= 0.0f && ofB >= 0.0f && ofC >= 0.0f)
+      {
+        meet(x, y, ofA * a[2] + ofB * b[2] + ofC * c[2]);
+      }
+    }
+  }
+}
+
+/** Where rays first meet those surfaces for which \a counts(number) holds. */
+template <typename TCounts>
+std::vector<float>
+FindNearest(const Scene & scene, const Projection & rays, const TCounts & counts)
+{
+  std::vector<float> nearest(static_cast<std::size_t>(rays.width) * static_cast<std::size_t>(rays.height), Nothing);
+  for (std::size_t n = 0; n < scene.surfaces.size(); ++n)
+  {
+    if (counts(n))
+    {
+      const std::vector<float> depths = FindDepths(scene.surfaces[n], scene.cuts, rays);
+      std::transform(nearest.begin(), nearest.end(), depths.begin(), nearest.begin(), [](float a, float b) {
+        return std::min(a, b);
+      });
+    }
+  }
+  return nearest;
+}
+
+/** Of the rays that meet something in \a behind, the share that meets something nearer in \a front; 0 without rays. */
+double
+HiddenShare(const std::vector<float> & front, const std::vector<float> & behind)
+{
+  std::size_t rays = 0;
+  std::size_t hidden = 0;
+  for (std::size_t n = 0; n < behind.size(); ++n)
+  {
+    rays += behind[n] < Nothing ? 1 : 0;
+    hidden += front[n] < behind[n] && behind[n] < Nothing ? 1 : 0;
+  }
+  return rays > 0 ? static_cast<double>(hidden) / static_cast<double>(rays) : 0.0;
+}
+
+LPSBox
+BoxOfFocus(const Scene & scene, const std::vector<bool> & isFocus)
+{
+  std::vector<SceneSurface> focus;
+  for (std::size_t n = 0; n < scene.surfaces.size(); ++n)
+  {
+    if (isFocus[n])
+    {
+      focus.push_back(scene.surfaces[n]);
+    }
+  }
+  return BoxAround(focus);
+}
+
+} // namespace
+
+std::vector<float>
+FindDepths(const SceneSurface & item, const std::vector<ClipPlane> & cuts, const Projection & rays)
+{
+  std::vector<float> depths(static_cast<std::size_t>(rays.width) * static_cast<std::size_t>(rays.height), Nothing);
+  std::vector<ClipPlane> planes;
+  std::copy_if(
+    cuts.begin(), cuts.end(), std::back_inserter(planes), [&item](const ClipPlane & cut) { return IsCut(item, cut); });
+  const auto isRemoved = [&](int x, int y, float depth) {
+    const Vector3 point = Along(rays.PointAt({ x + 0.5, y + 0.5 }), rays.frame.look, depth);
+    return std::any_of(planes.begin(), planes.end(), [&point](const ClipPlane & plane) {
+      return Dot(point, plane.normal) > Dot(plane.point, plane.normal);
+    });
+  };
+  const std::vector<SeenPoint> points = SeePoints(*item.surface, rays);
+  for (const auto & triangle : item.surface->GetTriangles())
+  {
+    MeetTriangle(
+      { points[triangle[0]], points[triangle[1]], points[triangle[2]] }, rays, [&](int x, int y, float depth) {
+        float & nearest =
+          depths[static_cast<std::size_t>(y) * static_cast<std::size_t>(rays.width) + static_cast<std::size_t>(x)];
+        if (depth < nearest && (planes.empty() || !isRemoved(x, y, depth)))
+        {
+          nearest = depth;
+        }
+      });
+  }
+  return depths;
+}
+
+std::vector<std::size_t>
+FindEnclosing(const Scene & scene)
+{
+  const std::size_t count = scene.surfaces.size();
+  std::vector<std::pair<std::size_t, std::size_t>> pairs; // of a surface in front and one behind
+  for (std::size_t front = 0; front < count; ++front)
+  {
+    for (std::size_t behind = 0; behind < count; ++behind)
+    {
+      if (front != behind && scene.surfaces[front].opacity == 1.0)
+      {
+        pairs.emplace_back(front, behind);
+      }
+    }
+  }
+  const LPSBox box = pairs.empty() ? LPSBox() : BoxAround(scene.surfaces);
+  for (const View & view : StandardViews())
+  {
+    std::vector<bool> isNeeded(count, false);
+    for (const auto & [front, behind] : pairs)
+    {
+      isNeeded[front] = isNeeded[behind] = true;
+    }
+    std::vector<std::vector<float>> depths(count);
+    for (std::size_t n = 0; n < count; ++n)
+    {
+      depths[n] =
+        isNeeded[n] ? FindDepths(scene.surfaces[n], scene.cuts, RaysThrough(box, view.frame)) : std::vector<float>();
+    }
+    const auto isSeen = [&depths](const auto & pair) {
+      return HiddenShare(depths[pair.first], depths[pair.second]) < EnclosedShare;
+    };
+    pairs.erase(std::remove_if(pairs.begin(), pairs.end(), isSeen), pairs.end());
+  }
+  std::vector<std::size_t> enclosing;
+  for (const auto & pair : pairs)
+  {
+    if (enclosing.empty() || enclosing.back() != pair.first)
+    {
+      enclosing.push_back(pair.first);
+    }
+  }
+  return enclosing;
+}
+
+std::vector<std::size_t>
+FindHiding(const Scene & scene, const std::vector<bool> & isFocus, const std::vector<View> & views)
+{
+  const LPSBox box = BoxOfFocus(scene, isFocus);
+  std::vector<bool> hides(scene.surfaces.size(), false);
+  for (const View & view : views)
+  {
+    const Projection rays = RaysThrough(box, view.frame);
+    const std::vector<float> focus = FindNearest(scene, rays, [&isFocus](std::size_t n) { return isFocus[n]; });
+    for (std::size_t n = 0; n < hides.size(); ++n)
+    {
+      if (!isFocus[n] && !hides[n])
+      {
+        hides[n] = HiddenShare(FindDepths(scene.surfaces[n], scene.cuts, rays), focus) >= HidingShare;
+      }
+    }
+  }
+  std::vector<std::size_t> numbers;
+  for (std::size_t n = 0; n < hides.size(); ++n)
+  {
+    if (hides[n])
+    {
+      numbers.push_back(n);
+    }
+  }
+  return numbers;
+}
+
+const View &
+FindBestView(const Scene & scene, const std::vector<bool> & isFocus)
+{
+  const LPSBox box = BoxOfFocus(scene, isFocus);
+  const View * best = nullptr;
+  double hidden = 2.0;
+  for (const View & view : StandardViews())
+  {
+    const Projection rays = RaysThrough(box, view.frame);
+    const std::vector<float> focus = FindNearest(scene, rays, [&isFocus](std::size_t n) { return isFocus[n]; });
+    const std::vector<float> front =
+      FindNearest(scene, rays, [&](std::size_t n) { return !isFocus[n] && scene.surfaces[n].opacity == 1.0; });
+    const double share = HiddenShare(front, focus);
+    if (share <= hidden - LikeShare)
+    {
+      best = &view;
+      hidden = share;
+    }
+  }
+  return *best;
+}
+
+} // namespace rhombic

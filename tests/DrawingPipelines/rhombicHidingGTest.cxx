@@ -1,0 +1,131 @@
+#include "rhombicHiding.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace
+{
+
+using rhombic::ClipPlane;
+using rhombic::Projection;
+using rhombic::Scene;
+using rhombic::SceneSurface;
+using rhombic::Vector3;
+
+using Numbers = std::vector<std::size_t>;
+
+constexpr float nothing = std::numeric_limits<float>::infinity();
+
+/** A closed box. */
+SceneSurface
+Box(const std::string & name, const Vector3 & lowest, const Vector3 & highest, double opacity = 1.0)
+{
+  const auto surface = itk::TriangleSurface::New();
+  for (unsigned int corner = 0; corner < 8; ++corner)
+  {
+    itk::TriangleSurface::PointType point;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      point[axis] = static_cast<float>((corner >> axis & 1U) != 0 ? highest[axis] : lowest[axis]);
+    }
+    surface->GetPoints().push_back(point);
+  }
+  surface->GetTriangles() = { { 0, 2, 3 }, { 0, 3, 1 }, { 4, 5, 7 }, { 4, 7, 6 }, { 0, 1, 5 }, { 0, 5, 4 },
+                              { 2, 6, 7 }, { 2, 7, 3 }, { 0, 4, 6 }, { 0, 6, 2 }, { 1, 3, 7 }, { 1, 7, 5 } };
+  SceneSurface item;
+  item.name = name;
+  item.surface = surface;
+  item.opacity = opacity;
+  return item;
+}
+
+/** A cube around the origin. */
+SceneSurface
+Cube(const std::string & name, double half, double opacity = 1.0)
+{
+  return Box(name, { -half, -half, -half }, { half, half, half }, opacity);
+}
+
+/** Rays from the front, 1 mm apart, around the origin. */
+Projection
+FrontRays()
+{
+  Projection rays;
+  rays.frame = rhombic::View().frame;
+  rays.width = rays.height = 20;
+  return rays;
+}
+
+TEST(Hiding, DepthsAreThoseOfTheNearestWall)
+{
+  const auto depths = rhombic::FindDepths(Box("box", { 1, -3, 2 }, { 4, 5, 7 }), {}, FrontRays());
+  for (int row = 0; row < 20; ++row)
+  {
+    for (int column = 0; column < 20; ++column)
+    {
+      const double x = column - 9.5;
+      const double z = 9.5 - row;
+      const bool isMet = x > 1 && x < 4 && z > 2 && z < 7;
+      EXPECT_FLOAT_EQ(depths[static_cast<std::size_t>(20 * row + column)], isMet ? -3.0f : nothing)
+        << column << ", " << row;
+    }
+  }
+}
+
+TEST(Hiding, RaysPassWhatCutsRemove)
+{
+  const std::vector<ClipPlane> cuts{ { { 0, 0, 0 }, { 0, -1, 0 }, { "box" } } }; // removes the front
+  const SceneSurface box = Cube("box", 6);
+  EXPECT_FLOAT_EQ(rhombic::FindDepths(box, cuts, FrontRays())[190], 6.0f);
+  EXPECT_FLOAT_EQ(rhombic::FindDepths(Cube("other", 6), cuts, FrontRays())[190], -6.0f);
+}
+
+TEST(Hiding, OpaqueSurfacesAroundOthersEncloseThem)
+{
+  const SceneSurface beside = Box("beside", { 20, -2, -2 }, { 24, 2, 2 });
+  EXPECT_EQ(rhombic::FindEnclosing({ { Cube("inner", 5), Cube("outer", 10), beside }, {}, {} }), Numbers{ 1 });
+  EXPECT_EQ(rhombic::FindEnclosing({ { Cube("inner", 5), Cube("middle", 7), Cube("outer", 10) }, {}, {} }),
+            (Numbers{ 1, 2 }));
+  EXPECT_EQ(rhombic::FindEnclosing({ { Cube("inner", 5), Cube("outer", 10, 0.3) }, {}, {} }), Numbers{});
+  EXPECT_EQ(rhombic::FindEnclosing({ { Cube("only", 5) }, {}, {} }), Numbers{});
+  EXPECT_EQ(rhombic::FindEnclosing({}), Numbers{});
+}
+
+TEST(Hiding, WhatIsSeenFromOneSideIsNotEnclosed)
+{
+  const SceneSurface atTheWall = Box("at the wall", { -2, -11, -2 }, { 2, -7, 2 });
+  EXPECT_EQ(rhombic::FindEnclosing({ { atTheWall, Cube("outer", 10) }, {}, {} }), Numbers{});
+  const std::vector<ClipPlane> cuts{ { { 0, 0, 0 }, { 0, -1, 0 }, { "outer" } } };
+  EXPECT_EQ(rhombic::FindEnclosing({ { Cube("inner", 5), Cube("outer", 10) }, cuts, {} }), Numbers{});
+}
+
+TEST(Hiding, WhatLiesBeforeTheFocusHidesItInThatView)
+{
+  const Scene scene{ { Cube("focus", 5),
+                       Box("front", { -4, -20, -4 }, { 4, -16, 4 }),
+                       Box("back", { -4, 16, -4 }, { 4, 20, 4 }),
+                       Box("skin", { -30, -30, -30 }, { 30, 30, 30 }, 0.2),
+                       Box("beside", { 8, -20, -4 }, { 12, -16, 4 }) },
+                     {},
+                     {} };
+  const std::vector<bool> isFocus{ true, false, false, false, false };
+  const auto & views = rhombic::StandardViews();
+  EXPECT_EQ(rhombic::FindHiding(scene, isFocus, { views[0] }), (Numbers{ 1, 3 }));
+  EXPECT_EQ(rhombic::FindHiding(scene, isFocus, { views[1] }), (Numbers{ 2, 3 }));
+  EXPECT_EQ(rhombic::FindHiding(scene, isFocus, { views[0], views[1] }), (Numbers{ 1, 2, 3 }));
+}
+
+TEST(Hiding, TheBestViewIsTheFirstInWhichLeastIsHidden)
+{
+  const std::vector<bool> isFocus{ true, false, false };
+  Scene scene{ { Cube("focus", 5), Box("front", { -5, -20, -5 }, { 5, -16, 5 }), Cube("skin", 30, 0.2) }, {}, {} };
+  EXPECT_EQ(rhombic::FindBestView(scene, isFocus).name, "posterior");
+  scene.surfaces[1].opacity = 0.5; // can be seen through
+  EXPECT_EQ(rhombic::FindBestView(scene, isFocus).name, "anterior");
+  scene.surfaces[1] = Box("front and back", { -5, -20, -5 }, { 3, 20, -5.5 });
+  EXPECT_EQ(rhombic::FindBestView(scene, isFocus).name, "anterior");
+}
+
+} // namespace
