@@ -89,13 +89,17 @@ Preset
 SurfaceOptions::GetPreset(ScanSource & source, std::optional<SourceVolume> & volume, const Events & events) const
 {
   std::string name = preset;
-  if (preset == "auto")
+  const bool choosesNothing = takesAuto && !ChoosesSurfaces() && labelTable.empty();
+  if (preset == "auto" || choosesNothing)
   {
     volume = LoadVolume(source, events);
     const PresetChoice choice = ChoosePreset(*volume, !labels.empty() || !probabilities.empty());
-    source.presetChoice = choice.Describe();
-    events.Note("preset: " + source.presetChoice);
     name = choice.preset;
+    if (!choosesNothing || !name.empty()) // a label map needs no choice
+    {
+      source.presetChoice = choice.Describe();
+      events.Note((choosesNothing ? "no surface is chosen; --preset auto takes " : "preset: ") + source.presetChoice);
+    }
   }
   return name.empty() ? Preset() : FindPreset(name);
 }

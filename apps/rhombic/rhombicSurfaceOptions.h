@@ -32,12 +32,13 @@ struct SurfaceOptions
   bool removesTable = false;
   bool keepsTable = false;
   std::string mode = "lean";
+  bool takesAuto = false; ///< no setting: of commands that choose a preset as "auto" does where no surface is named
 
   static const SettingsTable<SurfaceOptions> &
   Table();
 
-  /** The preset; without --preset, one of no surfaces. "auto" reads the source to choose one: \a volume is what it
-   * holds, and the source's presetChoice tells why. Throws Failure. */
+  /** The preset; without --preset, one of no surfaces. "auto", and the lack of any choice if takesAuto, reads the
+   * source to choose one: \a volume is what it holds, and the source's presetChoice tells why. Throws Failure. */
   Preset
   GetPreset(ScanSource & source, std::optional<SourceVolume> & volume, const Events & events) const;
 

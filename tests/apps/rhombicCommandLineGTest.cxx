@@ -171,7 +171,7 @@ constexpr ErrorCase errorCases[] = {
   { "LabelTableThatIsNone", "info scan.nii.gz --label-table text.dcm", 4, "text.dcm" },
   { "LabelsOfWhatIsNoLabelMap", "mesh scan.nii.gz --label heart -o a.stl", 2, "is no label map" },
   { "LabelsBesideAThreshold", "mesh labels.nii.gz -t 1 --label heart -o a.stl", 2, "--labels" },
-  { "LabelsOfALattice", "render scan.fcc.nrrd -o a.png", 2, "is no label map" },
+  { "LabelsOfALattice", "render scan.fcc.nrrd --label heart -o a.png", 2, "is no label map" },
   { "UnknownLabel", "mesh labels.nii.gz --label haert -o a.stl", 2, "no label 'haert'; did you mean heart?" },
   { "BadSeries", "render dicom --series 7 --preset ct-bone -o a.png", 2, "7" },
   { "ThresholdAboveTheRange", "render scan.nii.gz --surface bone=9000.5 -o a.png", 6, "run from -1000 to" },

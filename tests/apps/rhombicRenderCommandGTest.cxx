@@ -131,6 +131,66 @@ TEST_F(RenderCommand, CutsRemoveTheSideThatIsSaid)
   EXPECT_NE(Bytes("front.png"), Bytes("whole.png"));
 }
 
+/** The number of red pixels. */
+int
+CountRed(const rhombic::Picture & picture)
+{
+  int count = 0;
+  for (std::size_t n = 0; n < picture.pixels.size(); n += 3)
+  {
+    const std::uint8_t * const pixel = &picture.pixels[n];
+    count += pixel[0] > 30 && pixel[0] > 2 * pixel[1] && pixel[0] > 2 * pixel[2] ? 1 : 0;
+  }
+  return count;
+}
+
+TEST_F(RenderCommand, WhatHidesTheFocusIsTranslucent)
+{
+  const std::string options = phantomLabels + " --draw '*=white' --draw 'right kidney=red' --annotate none --size 200 "
+                                              "--no-shadows --no-silhouettes --focus 'right kidney' ";
+  RunWell("render " + options + "--view anterior -o ghost.png");
+  RunWell("render " + options + "--view anterior --ghost 1 -o as-it-is.png");
+  RunWell("render " + options + "--view anterior --ghost 0 -o left-out.png");
+  RunWell("render " + options + "--only 'right kidney' --view anterior -o alone.png");
+  const int whole = CountRed(Read("alone.png"));
+  EXPECT_LT(CountRed(Read("as-it-is.png")), 0.1 * whole);
+  EXPECT_GT(CountRed(Read("ghost.png")), 0.5 * whole);
+  EXPECT_NEAR(CountRed(Read("left-out.png")), whole, 0.02 * whole);
+}
+
+TEST_F(RenderCommand, TheFocusIsSeenFromTheSideWhereLeastOfItIsHidden)
+{
+  const std::string options = phantomLabels + " --draw '*=white' --draw 'right kidney=red' --annotate none --size 200 "
+                                              "--ghost 1 --focus 'right kidney' ";
+  RunWell("render " + options + "-o chosen.png");
+  RunWell("render " + options + "--view all -o each.png");
+  const std::string view = nlohmann::json::parse(Bytes("chosen.png.json"))["focus"]["view"];
+  EXPECT_EQ(Bytes("chosen.png"), Bytes("each-" + view + ".png"));
+  EXPECT_FALSE(nlohmann::json::parse(Bytes("each-left.png.json"))["focus"].contains("view"));
+}
+
+TEST_F(RenderCommand, SurfacesAroundOthersAreTranslucentUnlessAnOpacityWasAskedFor)
+{
+  // Of the phantom's torso as an isosurface, with the labels inside it.
+  const std::string options = phantomScan + " --labels " + phantomLabels + " --only liver,torso --size 64 --surface ";
+  RunWell("render " + options + "torso=-300.5,white -o opened.png");
+  EXPECT_EQ(nlohmann::json::parse(Bytes("opened.png.json"))["opened"], nlohmann::json({ "torso" }));
+  RunWell("render " + options + "torso=-300.5,white,1 -o asked.png");
+  EXPECT_FALSE(nlohmann::json::parse(Bytes("asked.png.json")).contains("opened"));
+}
+
+TEST_F(RenderCommand, WithoutSurfacesThePresetIsThatOfAuto)
+{
+  const Outcome unasked = Run("render " + phantomScan + " --size 64 -o unasked.png");
+  EXPECT_EQ(unasked.exitCode, 0) << unasked.errors;
+  EXPECT_NE(unasked.errors.find("no surface is chosen; --preset auto takes ct-bone-skin"), std::string::npos)
+    << unasked.errors;
+  RunWell("render " + phantomScan + " --size 64 --preset auto -o auto.png");
+  EXPECT_EQ(Bytes("unasked.png"), Bytes("auto.png"));
+  RunWell("render " + phantomLabels + " --size 64 -o labels.png");
+  EXPECT_FALSE(nlohmann::json::parse(Bytes("labels.png.json")).contains("preset"));
+}
+
 TEST_F(RenderCommand, TheSameCommandMakesTheSameFilesWithAnyNumberOfThreads)
 {
   const std::string options = phantomScan + " --labels " + phantomLabels +

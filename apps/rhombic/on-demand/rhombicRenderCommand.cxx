@@ -41,6 +41,7 @@ struct RenderOptions
   std::optional<double> pixelSize;
   bool hasSameScale = false;
   std::string focus;
+  double ghost = 0.15;
   bool isPerspective = false;
   bool hasNoShadows = false;
   bool hasNoSilhouettes = false;
@@ -239,7 +240,6 @@ FinishSource(const RenderOptions & options,
   const Preset preset = options.surfaces.GetPreset(source.scan, volume, context.console->MakeEvents());
   options.scan.ApplyPreset(preset, source.scan);
   source.surfaces = options.surfaces.GetSelection(preset);
-  source.surfaces.rules.opensEnclosing = source.surfaces.labels && source.surfaces.labels->labels.empty();
   return volume;
 }
 
@@ -304,6 +304,8 @@ RenderPictures(const RenderOptions & options, const CommandContext & context)
   settings.turntable = options.turntable;
   settings.onlyPicture = options.onlyPicture;
   settings.focus = options.focus;
+  settings.ghost = options.ghost;
+  settings.choosesView = !options.focus.empty() && options.views.empty();
   ParseSize(options.size, settings.render);
   settings.render.style = ParseStyle(options.style, "clinic");
   settings.writesDicom = options.writesDicom;
@@ -515,7 +517,16 @@ PictureTable()
       "also write each picture, page or turntable as a DICOM file beside it (.dcm, Secondary Capture): a new series in "
       "the scan's study, with the patient's name and study copied; of DICOM scans only" },
     { "--size", &RenderOptions::size, "width x height in pixels (default: what fits, the longer side 1200)" },
-    { "--focus", &RenderOptions::focus, "fit the picture to surfaces by name, as 'kidney*' (default: all)" },
+    { "--focus",
+      &RenderOptions::focus,
+      "fit the picture to surfaces by name, as 'kidney*' (default: all), seen from the side from which most of them is "
+      "seen, or from --view" },
+    { "--ghost",
+      &RenderOptions::ghost,
+      "opacity of what hides the surfaces of --focus: 0 leaves it out, 1 leaves it as it is",
+      Checked(CLI::Range(0.0, 1.0)),
+      ShowingDefault,
+      Needs({ "--focus" }) },
     { "--zoom", &RenderOptions::zoom, "enlarge", Checked(CLI::PositiveNumber) },
     { "--pixel-size",
       &RenderOptions::pixelSize,
@@ -609,6 +620,7 @@ CommandRun
 AddRenderCommand(CommandSettings & command)
 {
   const auto options = std::make_shared<RenderOptions>();
+  options->surfaces.takesAuto = true;
   AddTables(*options, command);
   return AddPipelineOption(command, [options](const CommandContext & context) { return Render(*options, context); });
 }
