@@ -99,6 +99,35 @@ TreatTable(Scan & scan, const std::optional<bool> & removesTable, const Events &
   return {};
 }
 
+/** Says which walls of bone voxels of a CT are too long for. A wall of thickness w between soft tissue in voxels of
+ * length d has a share w / d of the difference between the two. */
+void
+NoteThinBone(const Scan & scan, const std::vector<SurfaceRequest> & requests, const Events & events)
+{
+  constexpr double coarse = 2.5;         // mm
+  constexpr double compactBone = 1200.0; // HU, and next
+  constexpr double softTissue = 50.0;
+  constexpr double lower = 150.5; // at 3 mm, closes vertebrae and most of the pelvis
+  const auto & spacing = GeometryOf(scan.image).GetSpacing();
+  const double longest = *std::max_element(spacing.Begin(), spacing.End());
+  if (longest < coarse || (!scan.modality.empty() && scan.modality != "CT"))
+  {
+    return;
+  }
+  for (const SurfaceRequest & request : requests)
+  {
+    const double isovalue = request.isovalue.value();
+    if (!request.insideIsBelow && isovalue > lower && isovalue < compactBone && FitsPattern("*bone*", request.name))
+    {
+      const double thickness = longest * (isovalue - softTissue) / (compactBone - softTissue);
+      events.Note("the voxels are " + FormatNumber(longest, 3) +
+                  " mm long, in which walls of compact bone thinner than some " + FormatNumber(thickness, 1) +
+                  " mm fall below " + FormatNumber(isovalue) + ": " + request.name +
+                  " has holes there; --surface bone=" + FormatNumber(lower) + ",ivory closes most of them");
+    }
+  }
+}
+
 /** The requests with their isovalues. Otsu's threshold is computed only if a request needs it. */
 template <typename TVolume>
 std::vector<SurfaceRequest>
@@ -173,6 +202,7 @@ PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & sel
   }
   loaded.tableRemoval = TreatTable(scan, selection.removesTable, events);
   loaded.requests = ResolveRequests(requests, scan.image);
+  NoteThinBone(scan, loaded.requests, events);
   const Scan ordered = OrderAlongPatient(scan, source.lattice.maximumMemory);
   loaded.lattice = ScanToLattice(ordered, source.lattice, events);
   if (!IsSlanted(ordered))

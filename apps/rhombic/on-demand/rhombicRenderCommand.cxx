@@ -516,6 +516,15 @@ PictureTable()
       &RenderOptions::writesDicom,
       "also write each picture, page or turntable as a DICOM file beside it (.dcm, Secondary Capture): a new series in "
       "the scan's study, with the patient's name and study copied; of DICOM scans only" },
+  };
+  return table;
+}
+
+/** How the scene is fitted into a picture, and what is cut away. */
+const SettingsTable<RenderOptions> &
+FitTable()
+{
+  static const SettingsTable<RenderOptions> table{
     { "--size", &RenderOptions::size, "width x height in pixels (default: what fits, the longer side 1200)" },
     { "--focus",
       &RenderOptions::focus,
@@ -609,6 +618,7 @@ AddTables(RenderOptions & options, CommandSettings & command)
   command.Add(SurfaceOptions::Table(), options.surfaces);
   command.Add(FinishTable(), options.finish);
   command.Add(PictureTable(), options);
+  command.Add(FitTable(), options);
   command.Add(LookTable(), options);
   command.Add(ScanOptions::LatticeTable(), options.scan);
   command.Add(ScanOptions::SidecarTable(), options.scan);

@@ -149,6 +149,40 @@ HiddenShare(const std::vector<float> & front, const std::vector<float> & behind)
   return rays > 0 ? static_cast<double>(hidden) / static_cast<double>(rays) : 0.0;
 }
 
+/** The numbers of a surface in front and one behind. */
+using SurfacePair = std::pair<std::size_t, std::size_t>;
+
+/** The pairs, in ascending order, of an opaque surface and another one whose boxes meet. */
+std::vector<SurfacePair>
+PairsOf(const Scene & scene)
+{
+  std::vector<LPSBox> boxes;
+  for (const SceneSurface & surface : scene.surfaces)
+  {
+    boxes.push_back(BoxAround({ surface }));
+  }
+  const auto doMeet = [&boxes](std::size_t a, std::size_t b) {
+    bool all = true;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      all = all && boxes[a].lowest[axis] <= boxes[b].highest[axis] && boxes[b].lowest[axis] <= boxes[a].highest[axis];
+    }
+    return all;
+  };
+  std::vector<SurfacePair> pairs;
+  for (std::size_t front = 0; front < boxes.size(); ++front)
+  {
+    for (std::size_t behind = 0; behind < boxes.size(); ++behind)
+    {
+      if (front != behind && scene.surfaces[front].opacity == 1.0 && doMeet(front, behind))
+      {
+        pairs.emplace_back(front, behind);
+      }
+    }
+  }
+  return pairs;
+}
+
 LPSBox
 BoxOfFocus(const Scene & scene, const std::vector<bool> & isFocus)
 {
@@ -198,17 +232,7 @@ std::vector<std::size_t>
 FindEnclosing(const Scene & scene)
 {
   const std::size_t count = scene.surfaces.size();
-  std::vector<std::pair<std::size_t, std::size_t>> pairs; // of a surface in front and one behind
-  for (std::size_t front = 0; front < count; ++front)
-  {
-    for (std::size_t behind = 0; behind < count; ++behind)
-    {
-      if (front != behind && scene.surfaces[front].opacity == 1.0)
-      {
-        pairs.emplace_back(front, behind);
-      }
-    }
-  }
+  std::vector<SurfacePair> pairs = PairsOf(scene);
   const LPSBox box = pairs.empty() ? LPSBox() : BoxAround(scene.surfaces);
   for (const View & view : StandardViews())
   {
@@ -223,13 +247,13 @@ FindEnclosing(const Scene & scene)
       depths[n] =
         isNeeded[n] ? FindDepths(scene.surfaces[n], scene.cuts, RaysThrough(box, view.frame)) : std::vector<float>();
     }
-    const auto isSeen = [&depths](const auto & pair) {
+    const auto isSeen = [&depths](const SurfacePair & pair) {
       return HiddenShare(depths[pair.first], depths[pair.second]) < EnclosedShare;
     };
     pairs.erase(std::remove_if(pairs.begin(), pairs.end(), isSeen), pairs.end());
   }
   std::vector<std::size_t> enclosing;
-  for (const auto & pair : pairs)
+  for (const SurfacePair & pair : pairs)
   {
     if (enclosing.empty() || enclosing.back() != pair.first)
     {

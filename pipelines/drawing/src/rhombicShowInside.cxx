@@ -39,6 +39,14 @@ Open(const SurfaceSelection & selection, double opacity, SceneSurface & surface)
   return true;
 }
 
+/** "liver, colon and stomach", or the number of many. */
+std::string
+DescribeAll(const std::vector<std::string> & names)
+{
+  constexpr std::size_t few = 6;
+  return names.size() <= few ? Enumerate(names, "and") : Count(names.size(), "surface");
+}
+
 /** Leaves surfaces of opacity 0 out, with their rows. */
 void
 LeaveOutInvisible(PictureScene & scene)
@@ -79,7 +87,7 @@ OpenEnclosing(const SurfaceSelection & selection,
   if (!opened.empty())
   {
     scene.report["opened"] = opened;
-    events.Note("translucent, to show what is inside: " + Enumerate(opened, "and") + " (--draw '" + opened.front() +
+    events.Note("translucent, to show what is inside: " + DescribeAll(opened) + " (--draw '" + opened.front() +
                 "=,1' draws it opaque)");
   }
 }
@@ -124,8 +132,8 @@ ShowFocus(const std::vector<ClipPlane> & cuts,
   }
   if (!opened.empty())
   {
-    note += std::string("; ") + (settings.ghost > 0.0 ? "translucent" : "left out") +
-            ", as it is before it: " + Enumerate(opened, "and");
+    note +=
+      "; " + DescribeAll(opened) + (settings.ghost > 0.0 ? " translucent" : " left out") + ", which would hide it";
   }
   events.Note(note);
 }
