@@ -1,4 +1,4 @@
 itk_module(PictureIO
   DEPENDS RhombicCommon
-  PRIVATE_DEPENDS OpenImageIO::OpenImageIO
+  PRIVATE_DEPENDS OpenImageIO::OpenImageIO GIF::GIF
   DESCRIPTION "Pictures as PNG, JPEG, TIFF, EXR and GIF files, PDF files, and comparison of pictures.")

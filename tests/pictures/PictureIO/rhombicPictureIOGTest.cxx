@@ -401,6 +401,42 @@ TEST_F(PictureIO, AnimationHasItsFramesAndDelay)
   EXPECT_EQ(BytesOf(m_Folder / "again.gif"), bytes);
 }
 
+TEST_F(PictureIO, EvenAreasOfAnimationsKeepTheirColours)
+{
+  std::vector<Picture> frames = Frames(6);
+  constexpr int swatches = 60;
+  const auto colourOf = [](int swatch, int channel) {
+    return static_cast<std::uint8_t>((swatch * 37 + channel * 91) % 256);
+  };
+  for (Picture & frame : frames)
+  {
+    for (int n = 0; n < swatches * 36; ++n) // 6 x 6 pixels each
+    {
+      const int swatch = n / 36;
+      const auto offset = frame.At(swatch % 30 * 6 + n % 6, swatch / 30 * 6 + n / 6 % 6) - frame.pixels.data();
+      for (int channel = 0; channel < 3; ++channel)
+      {
+        frame.pixels[static_cast<std::size_t>(offset + channel)] = colourOf(swatch, channel);
+      }
+    }
+  }
+  rhombic::StagedFiles staged;
+  rhombic::StageAnimation(frames, 0.1, m_Folder / "turn.gif", staged);
+  staged.Commit();
+  for (const Picture & read : rhombic::ReadPictures(m_Folder / "turn.gif"))
+  {
+    for (int n = 0; n < swatches * 36; ++n)
+    {
+      const int swatch = n / 36;
+      const auto * const pixel = read.At(swatch % 30 * 6 + n % 6, swatch / 30 * 6 + n / 6 % 6);
+      for (int channel = 0; channel < 3; ++channel)
+      {
+        ASSERT_EQ(pixel[channel], colourOf(swatch, channel)) << swatch;
+      }
+    }
+  }
+}
+
 TEST_F(PictureIO, ImpossibleAnimationsAreUsage)
 {
   rhombic::StagedFiles staged;

@@ -55,8 +55,9 @@ StagePages(const std::vector<Picture> & pages,
 void
 CheckAnimationPath(const std::filesystem::path & path, int channels = 3);
 
-/** Writes frames of one size as a .gif file that repeats for ever. Each frame has a palette of up to 255 colours of its
- * own. \a secondsPerFrame is rounded to hundredths; browsers slow down below 0.02. GIF has no metadata. */
+/** Writes frames of one size as a .gif file that repeats for ever. All frames have one palette of 256 colours, in
+ * which even areas keep theirs; nothing is dithered. \a secondsPerFrame is rounded to hundredths; browsers slow down
+ * below 0.02. GIF has no metadata. */
 void
 StageAnimation(const std::vector<Picture> & frames,
                double secondsPerFrame,

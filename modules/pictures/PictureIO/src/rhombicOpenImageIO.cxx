@@ -1,6 +1,7 @@
 #include "detail/rhombicPictureCodec.h"
 
 #include "rhombicFailure.h"
+#include "rhombicGif.h"
 #include "rhombicLinearLight.h"
 #include "rhombicPictureComparison.h"
 #include "rhombicPictureFormat.h"
@@ -102,11 +103,7 @@ EncodeTo(OIIO::Filesystem::IOProxy * memory,
   }
   for (std::size_t i = 0; i < contents.count; ++i)
   {
-    OIIO::ImageSpec spec = MakeSpec(contents.pictures[i], format, contents.metadata);
-    if (contents.secondsPerFrame > 0.0)
-    {
-      spec.attribute("FramesPerSecond", static_cast<float>(1.0 / contents.secondsPerFrame));
-    }
+    const OIIO::ImageSpec spec = MakeSpec(contents.pictures[i], format, contents.metadata);
     const auto mode = i == 0 ? OIIO::ImageOutput::Create : OIIO::ImageOutput::AppendSubimage;
     if (!output->open(file.string(), spec, mode) || !WritePixels(*output, contents.pictures[i], format))
     {
@@ -202,6 +199,10 @@ public:
          const fs::path & file,
          std::vector<unsigned char> & bytes) const override
   {
+    if (format.name == "gif")
+    {
+      return EncodeGif(contents, bytes); // OpenImageIO would dither, with another palette for each frame
+    }
     OIIO::Filesystem::IOVecOutput memory;
     std::string error = EncodeTo(format.needsFile ? nullptr : &memory, contents, format, file);
     bytes = memory.buffer();

@@ -20,7 +20,7 @@ KnownFormats()
   static const PictureFormat jpeg{ "jpeg", "jpeg", false, false, false, false, { U::Single } };
   static const PictureFormat tiff{ "tiff", "zip", false, true, true, true, { U::Single, U::Pages } };
   static const PictureFormat exr{ "openexr", "zip", true, true, false, true, { U::Single } };
-  static const PictureFormat gif{ "gif", "none", false, false, true, false, { U::Animation } };
+  static const PictureFormat gif{ "gif", "none", false, false, false, false, { U::Animation } };
   static const std::vector<std::pair<std::string, PictureFormat>> formats{ { ".png", png },   { ".jpg", jpeg },
                                                                            { ".jpeg", jpeg }, { ".tif", tiff },
                                                                            { ".tiff", tiff }, { ".exr", exr },

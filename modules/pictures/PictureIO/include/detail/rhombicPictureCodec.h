@@ -25,7 +25,8 @@ struct PictureFile
 };
 
 /** \class PictureCodec
- * \brief Encodes, decodes and compares pictures. Nothing else in the library calls OpenImageIO. Thread safe. */
+ * \brief Encodes, decodes and compares pictures. Nothing else in the library calls OpenImageIO or giflib. Thread safe.
+ */
 class PictureCodec
 {
 public:
