@@ -249,6 +249,45 @@ TEST(SlicePicture, PlanesInTheOuterFacesAreInTheScan)
   }
 }
 
+/** A ramp of a smooth field between coarse samples: cubic curves are nearer to it than lines, by far. */
+TEST(SlicePicture, SmoothFieldsAreFollowedBetweenSamples)
+{
+  const auto image = slicetest::MakeImage<float>({ 30, 30, 12 });
+  const auto field = [](const Vector3 & p) { return 100.0 * std::sin(0.9 * p[0]) * std::cos(0.8 * p[1] + 0.7 * p[2]); };
+  slicetest::Fill(*image, {}, [&field](const auto & i, const auto &) {
+    return field({ static_cast<double>(i[0]), static_cast<double>(i[1]), static_cast<double>(i[2]) });
+  });
+  Scan scan;
+  scan.image = image;
+  const Projection plane{ FrameOf(SlicePlane::Axial), { 14.5, 14.5, 5.37 }, 0.1, 240, 240 };
+  const GreyWindow window{ 256.0, 0.0 };
+  const Picture picture = DrawSlice(scan, plane, window);
+  double sum = 0.0;
+  for (int n = 0; n < 240 * 240; ++n)
+  {
+    const double value = field(plane.PointAt({ n % 240 + 0.5, n / 240 + 0.5 }));
+    sum += std::abs(picture.At(n % 240, n / 240)[0] - 255.0 * (value / 256.0 + 0.5));
+  }
+  EXPECT_LT(sum / (240 * 240), 3.0); // linear interpolation: 9
+}
+
+TEST(SlicePicture, EdgesHaveNoRims)
+{
+  const auto image = slicetest::MakeImage<std::int16_t>({ 16, 16, 8 });
+  slicetest::Fill(*image, {}, [](const auto & i, const auto &) { return i[0] + i[1] + i[2] > 17 ? 100 : 20; });
+  Scan scan;
+  scan.image = image;
+  const auto box = BoxOf(scan);
+  for (const SlicePlane plane : { SlicePlane::Axial, SlicePlane::Coronal, SlicePlane::Sagittal })
+  {
+    const Picture picture =
+      DrawSlice(scan, SliceThrough(PointAtPosition(box, plane, 3.4), box, FrameOf(plane), 0.13), { 255.0, 127.5 });
+    const auto [least, most] = std::minmax_element(picture.pixels.begin(), picture.pixels.end());
+    EXPECT_GE(*least, 20);
+    EXPECT_LE(*most, 100);
+  }
+}
+
 TEST(SlicePicture, TheNumberOfThreadsChangesNothing)
 {
   const Scan scan = MakeSlantedScan(true, { 1.0, 2.0, 3.0 });

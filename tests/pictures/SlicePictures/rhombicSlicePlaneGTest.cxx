@@ -229,6 +229,33 @@ TEST(SlicePlane, TheIndexFollowsUnevenSlices)
   EXPECT_NEAR(point[2], 149.0, 1e-9);
 }
 
+TEST(SlicePlane, SlicesLieBetweenMargins)
+{
+  const SliceBox box = rhombic::BoxOf({ 0, 0, 10 }, { 50, 60, 110 }, { 1, 1, 1 });
+  for (const SlicePlane plane : { SlicePlane::Axial, SlicePlane::Coronal, SlicePlane::Sagittal })
+  {
+    const rhombic::Margins margins{ 11.0, 40.0, 25.0, 5.0 };
+    const auto frame = FrameOf(plane);
+    const Projection slice = rhombic::SliceOfSize(300, 200, { 20, 30, 50 }, box, frame, margins);
+    double left = 1e9;
+    double right = -1e9;
+    double top = 1e9;
+    double bottom = -1e9;
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      const auto position =
+        slice.PositionOf({ corner & 1 ? 50.0 : 0.0, corner & 2 ? 60.0 : 0.0, corner & 4 ? 110.0 : 10.0 });
+      left = std::min(left, position.x);
+      right = std::max(right, position.x);
+      top = std::min(top, position.y);
+      bottom = std::max(bottom, position.y);
+    }
+    EXPECT_NEAR(left - 11.0, 260.0 - right, 1e-9);
+    EXPECT_NEAR(top - 25.0, 195.0 - bottom, 1e-9);
+    EXPECT_NEAR(std::min(left - 11.0, top - 25.0), 0.0, 1e-9);
+  }
+}
+
 TEST(SlicePlane, SlicesOfALightboxDivideTheBoxEvenly)
 {
   const SliceBox box = rhombic::BoxOf({ 0, 0, 10 }, { 50, 60, 110 }, { 1, 1, 1 });

@@ -42,7 +42,8 @@ using SliceBackground = std::array<std::uint8_t, 4>;
 
 /** The greys of a scan in the plane of a projection: the values at the pixels' centres, in a window.
  *
- * Values between samples are interpolated linearly, in slices and between them. Tilted, sheared and unevenly spaced
+ * Values between samples are interpolated by cubic curves, in slices and between them, and limited to the range of the
+ * samples about them. Tilted, sheared and unevenly spaced
  * slices (Scan::sliceOrigins) are used at their true positions. The outer half of the outermost voxels has the value at
  * their centres. Pixels outside all voxels, and values that are not a number, get the background.
  *

@@ -1,6 +1,7 @@
 #ifndef rhombicSlicePlane_h
 #define rhombicSlicePlane_h
 
+#include "rhombicPicture.h"
 #include "rhombicProjection.h"
 #include "rhombicScan.h"
 
@@ -93,9 +94,15 @@ SpreadEvenly(const SliceBox & box, const ViewFrame & frame, std::size_t count);
 Projection
 SliceThrough(const Vector3 & point, const SliceBox & box, const ViewFrame & frame, double pixelSize = 0.0);
 
-/** The same for a picture of given size in pixels, with the smallest pixels that show the whole box. */
+/** The same for a picture of given size in pixels, with the smallest pixels that show the whole box between margins,
+ * which have to leave some of the picture. */
 Projection
-SliceOfSize(int width, int height, const Vector3 & point, const SliceBox & box, const ViewFrame & frame);
+SliceOfSize(int width,
+            int height,
+            const Vector3 & point,
+            const SliceBox & box,
+            const ViewFrame & frame,
+            const Margins & margins = {});
 
 } // namespace rhombic
 

@@ -14,6 +14,39 @@ namespace
 
 using FrameVector = itk::SliceStack::VectorType;
 
+/** The samples along an axis that a cubic curve between two of them follows, and their weights. */
+struct CubicStencil
+{
+  std::array<std::size_t, 4> places;
+  std::array<double, 4> weights;
+};
+
+/** The cubic Hermite curve from a sample to the next one, at a share of the way. Its slope at a sample is that of the
+ * line through the two next to it (for even distances: Catmull and Rom's curve, the cubic one of vtkImageReslice); at
+ * the ends of the axis it is that of the line to the next sample, so that linear fields are kept. \param size number of
+ * samples along the axis \param before distance from the sample to the next, divided by that from the sample before it
+ * to the next \param after the same for the sample behind the next */
+CubicStencil
+StencilAt(std::size_t sample, double share, std::size_t size, double before = 0.5, double after = 0.5)
+{
+  const double rest = 1.0 - share;
+  const double atNext = share * share * (3.0 - 2.0 * share);
+  const double slope = share * rest * rest;
+  const double slopeAtNext = -share * share * rest;
+  const std::size_t next = std::min(sample + 1, size - 1);
+  CubicStencil stencil{ { sample, sample, next, next }, { 0.0, 1.0 - atNext, atNext, 0.0 } };
+  auto & weights = stencil.weights;
+  const bool hasBefore = sample > 0;
+  const bool hasAfter = sample + 2 < size;
+  stencil.places[0] -= hasBefore ? 1 : 0;
+  stencil.places[3] += hasAfter ? 1 : 0;
+  weights[hasBefore ? 0 : 1] -= slope * (hasBefore ? before : 1.0);
+  weights[2] += slope * (hasBefore ? before : 1.0);
+  weights[1] -= slopeAtNext * (hasAfter ? after : 1.0);
+  weights[hasAfter ? 3 : 2] += slopeAtNext * (hasAfter ? after : 1.0);
+  return stencil;
+}
+
 /** Values of an image at positions in the frame of its slice stack. */
 template <typename TPixel>
 class StackValues
@@ -74,8 +107,9 @@ public:
     {
       return outside;
     }
-    return Mix(
-      this->ValueInSlice(slice, row, column), this->ValueInSlice(next, row, column), std::clamp(height, 0.0, 1.0));
+    return this->Interpolate(this->SlicesAt(slice, std::clamp(height, 0.0, 1.0)),
+                             AcrossAt(std::clamp(row, 0.0, static_cast<double>(m_Rows - 1)), m_Rows),
+                             AcrossAt(std::clamp(column, 0.0, static_cast<double>(m_Columns - 1)), m_Columns));
   }
 
 private:
@@ -87,26 +121,51 @@ private:
     return position >= -0.5 - Rounding && position <= static_cast<double>(size) - 0.5 + Rounding;
   }
 
-  static double
-  Mix(double a, double b, double share)
+  static CubicStencil
+  AcrossAt(double position, std::size_t size)
   {
-    return a + share * (b - a);
+    const auto sample = static_cast<std::size_t>(position);
+    return StencilAt(sample, position - static_cast<double>(sample), size);
   }
 
-  double
-  ValueInSlice(std::size_t slice, double row, double column) const
+  /** The slices about a height above a slice, a share of the way to the next. */
+  CubicStencil
+  SlicesAt(std::size_t slice, double height) const
   {
-    const double y = std::clamp(row, 0.0, static_cast<double>(m_Rows - 1));
-    const double x = std::clamp(column, 0.0, static_cast<double>(m_Columns - 1));
-    const auto firstRow = static_cast<std::size_t>(y);
-    const auto left = static_cast<std::size_t>(x);
-    const std::size_t right = std::min(left + 1, m_Columns - 1);
-    const TPixel * const first = m_Samples + (slice * m_Rows + firstRow) * m_Columns;
-    const TPixel * const second = firstRow + 1 < m_Rows ? first + m_Columns : first;
-    const double across = x - static_cast<double>(left);
-    return Mix(Mix(first[left], first[right], across),
-               Mix(second[left], second[right], across),
-               y - static_cast<double>(firstRow));
+    const auto distance = [this](std::size_t from, std::size_t to) { return m_Origins[to][2] - m_Origins[from][2]; };
+    const std::size_t count = m_Origins.size();
+    const double step = slice + 1 < count ? distance(slice, slice + 1) : 1.0;
+    const double before = slice > 0 && slice + 1 < count ? step / distance(slice - 1, slice + 1) : 1.0;
+    const double after = slice + 2 < count ? step / distance(slice, slice + 2) : 1.0;
+    return StencilAt(slice, height, count, before, after);
+  }
+
+  /** The weighted sum, limited to the range of its samples, so that edges have no bright or dark rims. */
+  double
+  Interpolate(const CubicStencil & slices, const CubicStencil & rows, const CubicStencil & columns) const
+  {
+    double sum = 0.0;
+    double lowest = std::numeric_limits<double>::infinity();
+    double highest = -lowest;
+    for (std::size_t k = 0; k < 4; ++k)
+    {
+      for (std::size_t j = 0; slices.weights[k] != 0.0 && j < 4; ++j)
+      {
+        const double weight = slices.weights[k] * rows.weights[j];
+        const TPixel * const row = m_Samples + (slices.places[k] * m_Rows + rows.places[j]) * m_Columns;
+        for (std::size_t i = 0; weight != 0.0 && i < 4; ++i)
+        {
+          if (columns.weights[i] != 0.0)
+          {
+            const auto sample = static_cast<double>(row[columns.places[i]]);
+            sum += weight * columns.weights[i] * sample;
+            lowest = std::min(lowest, sample);
+            highest = std::max(highest, sample);
+          }
+        }
+      }
+    }
+    return sum < lowest ? lowest : sum > highest ? highest : sum; // or not a number
   }
 
   itk::SliceStack m_Stack;

@@ -233,10 +233,18 @@ SliceThrough(const Vector3 & point, const SliceBox & box, const ViewFrame & fram
 }
 
 Projection
-SliceOfSize(int width, int height, const Vector3 & point, const SliceBox & box, const ViewFrame & frame)
+SliceOfSize(int width,
+            int height,
+            const Vector3 & point,
+            const SliceBox & box,
+            const ViewFrame & frame,
+            const Margins & margins)
 {
-  const double size = std::max(LengthAlong(frame.right, box) / width, LengthAlong(frame.up, box) / height);
-  return { frame, CentreOfSlice(point, box, frame.look), size, width, height };
+  const double size = std::max(LengthAlong(frame.right, box) / (width - margins.left - margins.right),
+                               LengthAlong(frame.up, box) / (height - margins.top - margins.bottom));
+  const Vector3 middle = CentreOfSlice(point, box, frame.look);
+  const Vector3 beside = Along(middle, frame.right, 0.5 * size * (margins.right - margins.left));
+  return { frame, Along(beside, frame.up, 0.5 * size * (margins.top - margins.bottom)), size, width, height };
 }
 
 } // namespace rhombic
