@@ -48,6 +48,10 @@ TEST(Wording, NumbersDoNotDependOnTheLocale)
 {
   const std::locale before = std::locale::global(std::locale(std::locale::classic(), new rhombictest::GermanNumbers));
   EXPECT_EQ(rhombic::FormatFixed(1234.5, 1), "1234.5");
+  EXPECT_EQ(rhombic::FormatFixed(-0.04, 1), "0.0");
+  EXPECT_EQ(rhombic::FormatFixed(-0.0, 0), "0");
+  EXPECT_EQ(rhombic::FormatFixed(-0.06, 1), "-0.1");
+  EXPECT_EQ(rhombic::FormatFixed(-std::numeric_limits<double>::infinity(), 1), "-inf");
   EXPECT_EQ(rhombic::FormatNumber(1234.5), "1234.5");
   EXPECT_EQ(rhombic::ToNumber<double>("1234.5"), 1234.5);
   std::locale::global(before);

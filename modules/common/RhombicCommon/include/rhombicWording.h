@@ -15,7 +15,7 @@ namespace rhombic
 /** \file
  * Text from numbers, numbers from text, and parts of sentences for users. Nothing here depends on the locale. */
 
-/** A number with a fixed count of decimals, from 0 to 100: "12.30". */
+/** A number with a fixed count of decimals, from 0 to 100: "12.30". Zero has no sign, also where it was rounded. */
 std::string
 FormatFixed(double value, int decimals);
 

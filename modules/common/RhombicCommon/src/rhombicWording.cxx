@@ -60,7 +60,9 @@ NearDistance(const std::string & a, const std::string & b)
 std::string
 FormatFixed(double value, int decimals)
 {
-  return ToText(value, std::chars_format::fixed, decimals);
+  std::string text = ToText(value, std::chars_format::fixed, decimals);
+  const bool isZero = text.find_first_of("123456789in") == std::string::npos; // inf, nan
+  return isZero && text[0] == '-' ? text.substr(1) : text;
 }
 
 std::string
