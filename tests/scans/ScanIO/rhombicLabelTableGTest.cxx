@@ -671,14 +671,50 @@ TEST(AnatomicalColours, DoNotDependOnHowANameIsWritten)
   EXPECT_NE(AnatomicalColour("pulmonary vein", 1), AnatomicalColour("renal vein", 1));
 }
 
-TEST(AnatomicalColours, OfUnknownNamesDifferByValue)
+TEST(AnatomicalColours, OfUnknownNamesHaveOneHueOnBothSides)
 {
-  for (int a = -64; a < 64; ++a)
+  for (const std::string name : { "thing", "choroid-plexus", "vessel of something" })
   {
-    EXPECT_EQ(AnatomicalColour("thing", a), AnatomicalColour("", a));
-    for (int b = -64; b < a; ++b)
+    const Colour left = AnatomicalColour(name + " left", 5);
+    const Colour right = AnatomicalColour(name + " right", 11);
+    EXPECT_EQ(left, rhombic::Lighten(right, 0.2)) << name;
+    EXPECT_EQ(AnatomicalColour("Left-" + name, 3), left) << name;
+    EXPECT_NE(left, right);
+  }
+}
+
+TEST(AnatomicalColours, NamesHaveGroups)
+{
+  const std::pair<const char *, const char *> groups[] = {
+    { "vertebrae_L1", "bones" },
+    { "rib_left_4", "bones" },
+    { "aorta", "vessels" },
+    { "portal_vein", "vessels" },
+    { "gluteus_maximus_left", "muscles" },
+    { "kidney_right", "organs" },
+    { "lung_upper_lobe_left", "organs" },
+    { "liver_tumor", "findings" },
+    { "skin", "tissues" },
+    { "Left-Hippocampus", "nerves" },
+    { "thing", "" },
+  };
+  for (const auto & [name, group] : groups)
+  {
+    EXPECT_EQ(rhombic::FindAnatomicalGroup(name), group) << name;
+  }
+}
+
+TEST(AnatomicalColours, OfUnknownNamesAreQuietAndDifferByValue)
+{
+  for (int a = -48; a < 64; ++a)
+  {
+    const Colour colour = AnatomicalColour("thing", a);
+    EXPECT_EQ(colour, AnatomicalColour("", a));
+    const auto [lowest, highest] = std::minmax_element(colour.begin(), colour.end());
+    EXPECT_LE(*highest - *lowest, 125) << a; // of 255
+    for (int b = -48; b < a; ++b)
     {
-      const int least = a - b <= 13 ? 40 : 1;
+      const int least = a - b < 16 && (a & ~15) == (b & ~15) ? 60 : 1;
       EXPECT_GE(Distance(AnatomicalColour("thing", a), AnatomicalColour("thing", b)), least) << a << " and " << b;
     }
   }

@@ -67,7 +67,13 @@ Lighten(std::array<std::uint8_t, 3> colour, double fraction);
 std::optional<std::array<std::uint8_t, 3>>
 FindAnatomicalColour(const std::string & name);
 
-/** FindAnatomicalColour(), or for other names a colour by \a value, different for each value. */
+/** The group of a structure, by its name as FindAnatomicalColour() takes it: "bones", "vessels", "organs", "muscles",
+ * "nerves", "tissues", "findings" or "devices", as the same table says. Empty for other names. */
+std::string
+FindAnatomicalGroup(const std::string & name);
+
+/** FindAnatomicalColour(), or for other names one of 16 quiet colours, or of lighter and darker ones: by \a value, or by
+ * the name where that has a side, so that left and right have one hue. */
 std::array<std::uint8_t, 3>
 AnatomicalColour(const std::string & name, std::int32_t value);
 

@@ -1,8 +1,10 @@
 #include "rhombicLabelTable.h"
 
+#include "rhombicWording.h"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <iterator>
 
 namespace rhombic
 {
@@ -17,6 +19,7 @@ struct Rule
   std::string_view word;
   std::string_view second;
   LabelColour colour;
+  std::string_view group;
 };
 
 constexpr Rule Rules[] = {
@@ -71,6 +74,16 @@ HasWord(const std::vector<std::string> & words, std::string_view wanted)
   });
 }
 
+/** The first rule that fits the words; null if none does. */
+const Rule *
+FindRule(const std::vector<std::string> & words)
+{
+  const auto * const rule = std::find_if(std::begin(Rules), std::end(Rules), [&words](const Rule & candidate) {
+    return HasWord(words, candidate.word) && (candidate.second.empty() || HasWord(words, candidate.second));
+  });
+  return rule == std::end(Rules) ? nullptr : rule;
+}
+
 bool
 HasOddNumber(const std::vector<std::string> & words)
 {
@@ -79,29 +92,72 @@ HasOddNumber(const std::vector<std::string> & words)
   return number != words.rend() && (number->back() - '0') % 2 == 1;
 }
 
-/** A colour by its hue (in turns), saturation and brightness (from 0 to 1). */
-LabelColour
-ColourOfHue(double turns, double saturation, double brightness)
+bool
+IsLeftWord(const std::string & word)
 {
-  const auto component = [&](double offset) {
-    const double position = std::fmod(turns + offset, 1.0) * 6;
-    const double share = std::clamp(std::abs(position - 3) - 1, 0.0, 1.0);
-    return static_cast<std::uint8_t>(std::lround(255 * brightness * (1 - saturation * (1 - share))));
-  };
-  return { component(0), component(2.0 / 3), component(1.0 / 3) };
+  return word == "left" || word.rfind("sinist", 0) == 0;
 }
 
-/** A colour whose hue is a golden angle from that of the previous value. Values with nearly the same hue (5, 8 and 13
- * apart) differ in saturation or brightness. */
-LabelColour
-ColourOfValue(std::int32_t value)
+bool
+IsRightWord(const std::string & word)
 {
-  constexpr double goldenAngle = 0.381966011250105; // turns
-  constexpr double saturations[3] = { 0.62, 0.4, 0.82 };
-  constexpr double brightnesses[5] = { 0.92, 0.7, 0.84, 0.6, 0.77 };
-  const std::int64_t number = std::int64_t{ value } - std::numeric_limits<std::int32_t>::min();
-  const double turns = std::fmod(static_cast<double>(number) * goldenAngle, 1.0);
-  return ColourOfHue(turns, saturations[number % 3], brightnesses[number % 5]);
+  return word == "right" || word.rfind("dext", 0) == 0;
+}
+
+/** A structure's name without its side. */
+struct SidedName
+{
+  std::string rest; ///< the other words, with blanks between them
+  bool isLeft = false;
+  bool isRight = false;
+};
+
+/** Finds the side: left, sinistra, right, dexter, or l or r as the first or last word (but L1 is a vertebra). */
+SidedName
+FindSide(const std::vector<std::string> & words)
+{
+  SidedName name;
+  for (std::size_t n = 0; n < words.size(); ++n)
+  {
+    const std::string & word = words[n];
+    const bool isEnd = n + 1 == words.size() || (n == 0 && !IsDigit(words[1][0]));
+    const bool isLeft = IsLeftWord(word) || (isEnd && word == "l");
+    const bool isRight = IsRightWord(word) || (isEnd && word == "r");
+    name.isLeft = name.isLeft || isLeft;
+    name.isRight = name.isRight || isRight;
+    name.rest += isLeft || isRight ? "" : word + " ";
+  }
+  return name;
+}
+
+/** One of 16 quiet colours, whose CIEDE2000 differences are 16 and more, then lighter and darker ones. They were found
+ * by exchange in CIELAB: lightness 44 to 84, chroma up to 38, but 28 in blue and green, 20 in cyan and red, 12 in
+ * violet and pink. */
+LabelColour
+ColourOfNumber(std::uint32_t number)
+{
+  constexpr LabelColour quiet[] = { { 251, 199, 165 }, { 19, 112, 144 },  { 90, 111, 47 },   { 145, 105, 126 },
+                                    { 156, 223, 195 }, { 132, 188, 231 }, { 163, 121, 65 },  { 191, 177, 198 },
+                                    { 216, 213, 140 }, { 204, 138, 131 }, { 104, 104, 104 }, { 156, 85, 61 },
+                                    { 115, 148, 152 }, { 132, 164, 119 }, { 61, 113, 103 },  { 177, 168, 147 } };
+  constexpr double lightening[] = { 0.0, 0.3, -0.25, 0.15, -0.12, 0.45, -0.38 };
+  return Lighten(quiet[number % std::size(quiet)], lightening[number / std::size(quiet) % std::size(lightening)]);
+}
+
+constexpr double LighteningOfLeft = 0.2;
+
+/** A quiet colour: of the value, or for names with a side of the other words, so that both sides have one hue. */
+LabelColour
+ColourOfUnknown(const std::vector<std::string> & words, std::int32_t value)
+{
+  const SidedName name = FindSide(words);
+  if (!name.isLeft && !name.isRight)
+  {
+    return ColourOfNumber(static_cast<std::uint32_t>(value));
+  }
+  constexpr int hexadecimal = 16;
+  const auto number = static_cast<std::uint32_t>(std::stoul(HashText(name.rest).substr(8), nullptr, hexadecimal));
+  return Lighten(ColourOfNumber(number), name.isLeft ? LighteningOfLeft : 0.0);
 }
 
 } // namespace
@@ -121,23 +177,26 @@ std::optional<std::array<std::uint8_t, 3>>
 FindAnatomicalColour(const std::string & name)
 {
   const std::vector<std::string> words = WordsOfName(name);
-  const auto * const rule = std::find_if(std::begin(Rules), std::end(Rules), [&words](const Rule & candidate) {
-    return HasWord(words, candidate.word) && (candidate.second.empty() || HasWord(words, candidate.second));
-  });
-  if (rule == std::end(Rules))
+  const Rule * const rule = FindRule(words);
+  if (rule == nullptr)
   {
     return std::nullopt;
   }
-  const bool beginsWithL = words.size() > 1 && words[0] == "l" && !IsDigit(words[1][0]); // L1 is a vertebra
-  const bool isLeft = HasWord(words, "left.") || HasWord(words, "sinist") || words.back() == "l" || beginsWithL;
-  const LabelColour sided = Lighten(rule->colour, isLeft ? 0.2 : 0.0);
+  const LabelColour sided = Lighten(rule->colour, FindSide(words).isLeft ? LighteningOfLeft : 0.0);
   return Lighten(sided, HasOddNumber(words) ? -0.1 : 0.0);
+}
+
+std::string
+FindAnatomicalGroup(const std::string & name)
+{
+  const Rule * const rule = FindRule(WordsOfName(name));
+  return rule == nullptr ? std::string() : std::string(rule->group);
 }
 
 std::array<std::uint8_t, 3>
 AnatomicalColour(const std::string & name, std::int32_t value)
 {
-  return FindAnatomicalColour(name).value_or(ColourOfValue(value));
+  return FindAnatomicalColour(name).value_or(ColourOfUnknown(WordsOfName(name), value));
 }
 
 } // namespace rhombic
