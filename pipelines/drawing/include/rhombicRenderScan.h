@@ -79,7 +79,7 @@ struct PictureSettings
 {
   PictureSource source;
   std::vector<PlaneRequest> slices; ///< pictures of slices; of a page up to 3, and without any: axial, coronal and
-                                    ///< sagittal through the middle of the surfaces
+                                    ///< sagittal; those without a place meet most surfaces
   SliceSettings slice;
   bool writesDicom = false;        ///< also writes each picture or page as DICOM, .dcm in place of the extension (see
                                    ///< DicomStudy); a turntable is one file

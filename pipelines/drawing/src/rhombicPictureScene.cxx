@@ -3,13 +3,17 @@
 #include "rhombicScanReader.h"
 #include "rhombicFailure.h"
 #include "rhombicGreyWindow.h"
+#include "rhombicLabelTable.h"
 #include "rhombicMeasureTable.h"
 #include "rhombicSourceSurfaces.h"
 #include "rhombicSurfaceIO.h"
 #include "rhombicSurfaceReport.h"
 #include "rhombicWording.h"
 
+#include "itkTriangleSurfaceShading.h"
+
 #include <algorithm>
+#include <map>
 #include <utility>
 
 namespace rhombic
@@ -25,6 +29,35 @@ DescribeGrid(const itk::ImageBase<3> & image, const std::string & words)
          " mm";
 }
 
+/** A part of the body as DICOM has it, in words: "chest", "head and neck". */
+std::string
+WordsOfBodyPart(const std::string & term)
+{
+  static const std::map<std::string, std::string> words{ { "ABDOMENPELVIS", "abdomen and pelvis" },
+                                                         { "CHESTABDOMEN", "chest and abdomen" },
+                                                         { "CHESTABDPELVIS", "chest, abdomen and pelvis" },
+                                                         { "CSPINE", "cervical spine" },
+                                                         { "HEADNECK", "head and neck" },
+                                                         { "LSPINE", "lumbar spine" },
+                                                         { "NECKCHEST", "neck and chest" },
+                                                         { "TSPINE", "thoracic spine" },
+                                                         { "WHOLEBODY", "whole body" } };
+  const auto found = words.find(term);
+  return found != words.end() ? found->second : LowerCase(term);
+}
+
+/** What a title says of a scan: its modality, and the part of the body if DICOM names one. */
+std::string
+DescribeExamination(const Scan & scan, bool isLabelMap)
+{
+  const std::string modality = isLabelMap              ? "Segmentation"
+                               : scan.modality.empty() ? "Scan"
+                               : scan.modality == "PT" ? "PET"
+                                                       : scan.modality;
+  const std::string part = WordsOfBodyPart(ReadDicomExamination(scan).bodyPart);
+  return modality + (part.empty() ? "" : " " + part);
+}
+
 /** Measures a finished surface, and adds it. */
 void
 AddSurface(MeshedSurface & surface, PictureScene & scene)
@@ -32,11 +65,14 @@ AddSurface(MeshedSurface & surface, PictureScene & scene)
   MeasureFinished(scene.scan ? &*scene.scan : nullptr, surface);
   const SurfaceMeasures & measures = surface.measures;
   scene.surfaces.push_back(surface.scene);
-  scene.rows.push_back({ surface.scene.name,
+  std::string name = surface.scene.name;
+  std::replace(name.begin(), name.end(), '_', ' ');
+  scene.rows.push_back({ name,
                          surface.scene.colour,
                          measures.volume / CubicMillimetresPerMl,
                          measures.area / 100.0,
-                         measures.meanValue });
+                         measures.meanValue,
+                         FindAnatomicalGroup(name) });
   scene.report["surfaces"].push_back(ReportMeshedSurface(surface));
 }
 
@@ -114,6 +150,7 @@ MakeSceneOfScan(const PictureSource & source, std::optional<SourceVolume> volume
   const Scan * const scan = loaded.FindScan();
   const bool isLattice = scan == nullptr;
   scene.isOriented = isLattice || scan->isOriented;
+  scene.examination = isLattice ? "Scan" : DescribeExamination(*scan, !loaded.scan);
   const std::optional<SliceBox> box = isLattice ? std::nullopt : std::optional(BoxOf(*scan));
   if (keepsScan && loaded.scan)
   {
@@ -150,6 +187,7 @@ MakeSceneOfFiles(const PictureSource & source, const Events & events)
   }
   const SurfaceMaking making{ source.scan, source.surfaces, source.finish, SurfaceUse::Pictures, events };
   PictureScene scene;
+  scene.examination = "Surfaces";
   scene.report["surfaces"] = Report::array();
   std::vector<SceneSurface> read;
   std::vector<SurfaceRequest> names;
@@ -208,6 +246,23 @@ MakePictureScene(const PictureSource & source,
     surface.isGlossy = IsGlossy(source.surfaces.rules.rules, surface.name);
   }
   return scene;
+}
+
+std::vector<SceneSurface>
+ShadedSurfaces(const PictureScene & scene)
+{
+  std::vector<SceneSurface> shaded = scene.surfaces;
+  for (SceneSurface & surface : shaded)
+  {
+    if (!surface.surface->HasNormals())
+    {
+      const auto copy = itk::TriangleSurface::New();
+      copy->Graft(surface.surface);
+      ComputeTriangleSurfaceShadingNormals(*copy);
+      surface.surface = copy;
+    }
+  }
+  return shaded;
 }
 
 std::vector<SceneSurface>

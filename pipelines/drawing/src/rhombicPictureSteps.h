@@ -22,12 +22,13 @@ namespace rhombic
 struct PictureScene
 {
   std::vector<SceneSurface> surfaces;
-  std::vector<LegendRow> rows;    ///< of the surfaces, in their order
-  std::optional<Scan> scan;       ///< for greys; none without a scan, and when it was not to be kept
-  SliceBox box;                   ///< of the scan or label map, else around the surfaces
-  bool isOriented = true;         ///< whether it is known how the surfaces lie in the patient
-  std::string thresholds;         ///< "bone from 250.5, skin from -300.5"; empty without isosurfaces
-  std::string unit;               ///< of the scan's values: "HU", "Bq/ml"; empty if unknown
+  std::vector<LegendRow> rows; ///< of the surfaces, in their order
+  std::optional<Scan> scan;    ///< for greys; none without a scan, and when it was not to be kept
+  SliceBox box;                ///< of the scan or label map, else around the surfaces
+  bool isOriented = true;      ///< whether it is known how the surfaces lie in the patient
+  std::string examination;     ///< "CT chest", "PET", "Segmentation", "Scan" if nothing is known, "Surfaces" of files
+  std::string thresholds;      ///< "bone from 250.5, skin from -300.5"; empty without isosurfaces
+  std::string unit;            ///< of the scan's values: "HU", "Bq/ml"; empty if unknown
   std::vector<std::string> facts; ///< "scan: DICOM CT, 512 x 512 x 138, ...", and so on
   Report report;
 };
@@ -40,6 +41,10 @@ MakePictureScene(const PictureSource & source,
                  std::optional<SourceVolume> volume,
                  bool keepsScan,
                  const Events & events);
+
+/** The surfaces as they are drawn in views: those without normals, as of STL files, get normals for shading. */
+std::vector<SceneSurface>
+ShadedSurfaces(const PictureScene & scene);
 
 /** The centre of a box. */
 Vector3
@@ -58,6 +63,16 @@ NeedPlaces(const std::vector<PlaneRequest> & requests, SceneRules & rules);
  */
 Vector3
 FindPlace(const PlaneRequest & request, const PictureScene & scene);
+
+/** The point of a plane that meets most surfaces, not only their ends; of several such planes the one nearest to the
+ * middle of all surfaces. */
+Vector3
+PlaceOfMost(SlicePlane plane, const PictureScene & scene);
+
+/** The points of a lightbox's slices, evenly along the axis of the plane, from head to feet, from front to back or from
+ * the patient's left to right, as far as there are surfaces if their outlines are drawn. */
+std::vector<Vector3>
+PlacesInLightbox(const PlaneRequest & request, const SliceSettings & settings, const PictureScene & scene);
 
 /** The surfaces whose names fit a pattern. Throws Failure(Usage), suggesting the nearest name, when there are none. */
 std::vector<SceneSurface>
@@ -96,15 +111,33 @@ ShowFocus(const std::vector<ClipPlane> & cuts,
 void
 AddPlanes(const RenderScanSettings & settings, const PictureScene & source, Scene & scene);
 
-/** A slice of the scan in greys, black without a scan, and the curves along which it cuts the surfaces, in their
- * colours, fitted into so many pixels. */
-SheetPicture
-DrawOutlinedSlice(const PictureScene & scene,
-                  const PlaneRequest & request,
-                  const Vector3 & point,
-                  const SliceSettings & settings,
-                  int width,
-                  int height);
+/** A slice through a scene, which has no picture yet. */
+struct SceneSlice
+{
+  SheetPicture picture;     ///< outlines in the colours of lines, caption and position
+  std::vector<bool> isSeen; ///< whether the slice cuts a surface, in the order of the scene
+};
+
+/** Cuts a scene's surfaces. There are no outlines if the settings leave them out. */
+SceneSlice
+CutScene(const PictureScene & scene,
+         const PlaneRequest & request,
+         const Vector3 & point,
+         const SliceSettings & settings);
+
+/** Draws a slice between margins in a picture of so many pixels: the scan's greys, or without a scan the areas in the
+ * surfaces in their colours, on black; and moves the outlines there. */
+void
+DrawSceneSlice(const PictureScene & scene,
+               const SliceSettings & settings,
+               int width,
+               int height,
+               const Margins & margins,
+               SheetPicture & slice);
+
+/** Height of a slice through the whole scene, divided by its width. */
+double
+AspectOfSlice(const PictureScene & scene, const PlaneRequest & request, const Vector3 & point);
 
 /** A path with a part added to its stem. */
 std::filesystem::path

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 namespace rhombic
 {
@@ -14,11 +16,10 @@ namespace rhombic
 namespace
 {
 
-/** Throws Failure(Usage) for a position in LPS mm that is not in the box. */
-void
-RequireInside(SlicePlane plane, double position, const SliceBox & box)
+/** The lowest and the highest coordinate of a box along an axis of the patient, in LPS mm. */
+std::pair<double, double>
+ReachOf(const SliceBox & box, std::size_t axis)
 {
-  const std::size_t axis = AxisOf(plane);
   double lowest = box.corner[axis];
   double highest = box.corner[axis];
   for (const Vector3 & side : box.sides)
@@ -26,6 +27,15 @@ RequireInside(SlicePlane plane, double position, const SliceBox & box)
     lowest += std::min(0.0, side[axis]);
     highest += std::max(0.0, side[axis]);
   }
+  return { lowest, highest };
+}
+
+/** Throws Failure(Usage) for a position in LPS mm that is not in the box. */
+void
+RequireInside(SlicePlane plane, double position, const SliceBox & box)
+{
+  const std::size_t axis = AxisOf(plane);
+  const auto [lowest, highest] = ReachOf(box, axis);
   if (position < lowest || position > highest)
   {
     throw Failure(FailureKind::Usage,
@@ -108,6 +118,64 @@ NeedPlaces(const std::vector<PlaneRequest> & requests, SceneRules & rules)
       rules.needed.push_back(request.place);
     }
   }
+}
+
+Vector3
+PlaceOfMost(SlicePlane plane, const PictureScene & scene)
+{
+  constexpr int places = 200; // that are tried
+  constexpr double end = 0.1; // share of a surface's extent at each end, in which little of it is cut
+  const std::size_t axis = AxisOf(plane);
+  const LPSBox box = BoxAround(scene.surfaces);
+  const double middle = CentreOf(box)[axis];
+  std::vector<std::pair<double, double>> reaches;
+  for (const SceneSurface & surface : scene.surfaces)
+  {
+    const LPSBox reach = BoxAround({ surface });
+    const double margin = end * (reach.highest[axis] - reach.lowest[axis]);
+    reaches.emplace_back(reach.lowest[axis] + margin, reach.highest[axis] - margin);
+  }
+  const auto countAt = [&reaches](double position) {
+    return std::count_if(reaches.begin(), reaches.end(), [position](const auto & reach) {
+      return position >= reach.first && position <= reach.second;
+    });
+  };
+  double best = middle;
+  for (int n = 0; n <= places; ++n)
+  {
+    const double position = box.lowest[axis] + (box.highest[axis] - box.lowest[axis]) * n / places;
+    const auto gain = countAt(position) - countAt(best);
+    if (gain > 0 || (gain == 0 && std::abs(position - middle) < std::abs(best - middle)))
+    {
+      best = position;
+    }
+  }
+  const auto [lowest, highest] = ReachOf(scene.box, axis);
+  return PointAtPosition(scene.box, plane, std::clamp(best, lowest, highest));
+}
+
+std::vector<Vector3>
+PlacesInLightbox(const PlaneRequest & request, const SliceSettings & settings, const PictureScene & scene)
+{
+  const std::size_t axis = AxisOf(request.plane);
+  LPSBox box{};
+  for (const std::size_t n : { 0U, 1U, 2U })
+  {
+    std::tie(box.lowest[n], box.highest[n]) = ReachOf(scene.box, n);
+  }
+  if (settings.outlines)
+  {
+    const LPSBox surfaces = BoxAround(scene.surfaces);
+    box.lowest[axis] = std::max(box.lowest[axis], surfaces.lowest[axis]);
+    box.highest[axis] = std::min(box.highest[axis], surfaces.highest[axis]);
+  }
+  auto places =
+    SpreadEvenly(BoxOf(box.lowest, box.highest, scene.box.spacing), FrameOf(request.plane), settings.lightbox);
+  if (request.plane == SlicePlane::Axial) // the viewer is at the feet
+  {
+    std::reverse(places.begin(), places.end());
+  }
+  return places;
 }
 
 Vector3

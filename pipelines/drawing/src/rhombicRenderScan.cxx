@@ -5,11 +5,13 @@
 #include "rhombicLightbox.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicPictureSteps.h"
+#include "rhombicSeenSurfaces.h"
 #include "rhombicSurfaceRenderer.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace fs = std::filesystem;
 
@@ -97,6 +99,7 @@ PlanDicom(const RenderScanSettings & settings)
                       settings.turntable > 0 ? std::vector<fs::path>{ settings.picture } : PlanPictures(settings));
 }
 
+/** The annotations of a picture, but for its legend. */
 Annotations
 AnnotationsOf(const RenderScanSettings & settings, const PictureScene & scene, const Ink & background)
 {
@@ -106,10 +109,6 @@ AnnotationsOf(const RenderScanSettings & settings, const PictureScene & scene, c
   annotations.figure = settings.annotations.figure && scene.isOriented;
   annotations.title = settings.annotations.title;
   annotations.background = background;
-  if (settings.annotations.legend && scene.rows.size() > 1)
-  {
-    annotations.legend = scene.rows;
-  }
   if (settings.annotations.footnote)
   {
     const std::string thresholds = scene.thresholds.empty() ? "" : scene.thresholds + "; ";
@@ -118,34 +117,75 @@ AnnotationsOf(const RenderScanSettings & settings, const PictureScene & scene, c
   return annotations;
 }
 
+/** The rows of the surfaces that are seen, if the settings have a legend and the scene several surfaces. */
+std::vector<LegendRow>
+LegendOf(const RenderScanSettings & settings, const PictureScene & scene, const std::vector<bool> & isSeen)
+{
+  std::vector<LegendRow> legend;
+  for (std::size_t n = 0; n < scene.rows.size(); ++n)
+  {
+    if (isSeen[n] && settings.annotations.legend && scene.rows.size() > 1)
+    {
+      legend.push_back(scene.rows[n]);
+    }
+  }
+  return legend;
+}
+
+/** LegendOf() with the colours of outlines. */
+std::vector<LegendRow>
+LegendOfOutlines(const RenderScanSettings & settings, const PictureScene & scene, const std::vector<bool> & isSeen)
+{
+  std::vector<LegendRow> legend = LegendOf(settings, scene, isSeen);
+  for (LegendRow & row : legend)
+  {
+    row.colour = LineColourOnDark(row.colour);
+  }
+  return legend;
+}
+
 constexpr double Margins::*Sides[] = { &Margins::left, &Margins::right, &Margins::top, &Margins::bottom };
 
-/** For each side, the margin that leaves room for the annotations in all of the pictures, and room for the scene: small
- * pictures have annotations over it. No margin is below that of \a least. */
+/** The margins of a picture's annotations, limited so that small pictures keep room for the scene: these have
+ * annotations over it. */
 Margins
-LargestMargins(const Annotations & annotations, const std::vector<Projection> & pictures, const Margins & least)
+LimitedMargins(const Annotations & annotations, const Projection & picture)
+{
+  Margins margins = MarginsOf(annotations, picture.width, picture.height, picture.frame);
+  const Margins limits{ 0.2 * picture.width, 0.4 * picture.width, 0.2 * picture.height, 0.2 * picture.height };
+  for (const auto side : Sides)
+  {
+    margins.*side = std::min(margins.*side, limits.*side);
+  }
+  return margins;
+}
+
+/** For each side, the largest margin of all pictures' annotations. No margin is below that of \a least. */
+Margins
+LargestMargins(const std::vector<Annotations> & annotations,
+               const std::vector<Projection> & pictures,
+               const Margins & least)
 {
   Margins largest = least;
-  for (const Projection & picture : pictures)
+  for (std::size_t n = 0; n < pictures.size(); ++n)
   {
-    const Margins needed = MarginsOf(annotations, picture.width, picture.height, picture.frame);
-    const Margins limits{ 0.2 * picture.width, 0.45 * picture.width, 0.2 * picture.height, 0.2 * picture.height };
+    const Margins margins = LimitedMargins(annotations[n], pictures[n]);
     for (const auto side : Sides)
     {
-      largest.*side = std::max(largest.*side, std::min(needed.*side, limits.*side));
+      largest.*side = std::max(largest.*side, margins.*side);
     }
   }
   return largest;
 }
 
-/** Fits the settings to a scene: its extent, and margins for the annotations. The margins depend on the size of the
- * pictures; a size that is not given depends on the margins. */
+/** Fits the settings to a scene: its extent, and margins for the annotations of each view. The margins depend on the
+ * size of the pictures; a size that is not given depends on the margins. */
 RenderSettings
 FitToScene(const RenderScanSettings & settings,
            const PictureScene & source,
            const Scene & scene,
            const std::vector<View> & views,
-           const Annotations & annotations)
+           const std::vector<Annotations> & annotations)
 {
   RenderSettings render = settings.render;
   if (!settings.focus.empty())
@@ -201,6 +241,31 @@ FitToScene(const RenderScanSettings & settings,
   return render;
 }
 
+/** Gives each view's annotations the legend of the surfaces that are seen in it; all frames of a turntable have the
+ * legend of those that are seen in any. Perspective is taken for parallel. */
+void
+SetLegends(const RenderScanSettings & settings,
+           const PictureScene & source,
+           const Scene & scene,
+           RenderSettings render,
+           const std::vector<View> & views,
+           std::vector<Annotations> & annotations)
+{
+  render.perspective = false;
+  std::vector<bool> isSeenInAny(scene.surfaces.size(), false);
+  const std::vector<Projection> planned = SurfaceRenderer::Plan(scene, render, views);
+  for (std::size_t n = 0; n < views.size(); ++n)
+  {
+    const std::vector<bool> isSeen = FindSeenSurfaces(scene, planned[n]);
+    std::transform(isSeen.begin(), isSeen.end(), isSeenInAny.begin(), isSeenInAny.begin(), std::logical_or<>());
+    annotations[n].legend = LegendOf(settings, source, isSeen);
+  }
+  for (std::size_t n = 0; settings.turntable > 0 && n < views.size(); ++n)
+  {
+    annotations[n].legend = LegendOf(settings, source, isSeenInAny);
+  }
+}
+
 std::vector<Picture>
 DrawViews(const RenderScanSettings & settings,
           const PictureScene & source,
@@ -208,18 +273,25 @@ DrawViews(const RenderScanSettings & settings,
           SurfaceRenderer & renderer)
 {
   const bool isTransparent = settings.render.style == PictureStyle::Transparent;
-  const Annotations annotations =
-    AnnotationsOf(settings, source, { BackgroundOf(settings.render), isTransparent ? 0.0 : 1.0 });
   std::vector<View> views = ViewsOf(settings);
   Scene scene;
-  scene.surfaces = source.surfaces;
+  scene.surfaces = ShadedSurfaces(source);
   scene.cuts = cuts;
   AddCaps(settings, source, scene);
   AddPlanes(settings, source, scene);
+  Annotations ofAll = AnnotationsOf(settings, source, { BackgroundOf(settings.render), isTransparent ? 0.0 : 1.0 });
+  ofAll.legend = LegendOf(settings, source, std::vector<bool>(source.rows.size(), true));
+  std::vector<Annotations> annotations(views.size(), ofAll);
   RenderSettings render = FitToScene(settings, source, scene, views, annotations);
+  if (!ofAll.legend.empty())
+  {
+    SetLegends(settings, source, scene, render, views, annotations);
+    render = FitToScene(settings, source, scene, views, annotations);
+  }
   if (settings.turntable == 0 && settings.onlyPicture > 0)
   {
     views = { views[settings.onlyPicture - 1] };
+    annotations = { annotations[settings.onlyPicture - 1] };
   }
   std::vector<Picture> pictures;
   std::vector<RenderedView> drawn = renderer.Render(scene, render, views);
@@ -229,82 +301,155 @@ DrawViews(const RenderScanSettings & settings,
     unscaled.frame = views[n].frame;
     unscaled.width = drawn[n].picture.width;
     unscaled.height = drawn[n].picture.height;
-    Annotations ofView = annotations;
-    ofView.scaleBar = annotations.scaleBar && drawn[n].projection.has_value();
-    Annotate(drawn[n].picture, drawn[n].projection.value_or(unscaled), ofView);
+    annotations[n].scaleBar = annotations[n].scaleBar && drawn[n].projection.has_value();
+    Annotate(drawn[n].picture, drawn[n].projection.value_or(unscaled), annotations[n]);
     pictures.push_back(std::move(drawn[n].picture));
   }
   return pictures;
 }
 
-/** The size of a slice's picture: given sides as they are, other sides as long as the slice needs. */
-Projection
-SizedSlice(const RenderSettings & render,
-           const PictureScene & scene,
-           const PlaneRequest & request,
-           const Vector3 & point,
-           int longerSide)
+/** The size of a slice's picture, and the margins about the slice. */
+struct SliceLayout
 {
-  const ViewFrame frame = FrameOf(request.plane);
-  const Projection whole = SliceThrough(point, scene.box, frame);
-  const double aspect = static_cast<double>(whole.height) / static_cast<double>(whole.width);
-  int width = render.width;
-  int height = render.height;
-  if (width == 0 && height == 0)
+  int width = 0;
+  int height = 0;
+  Margins margins;
+};
+
+/** Given sides as they are, others as long as the slice and its annotations need, but not below a quarter of \a
+ * longerSide: thin slices have letters apart.
+ * \param aspect height of the slice, divided by its width */
+SliceLayout
+FitSlice(const RenderSettings & given,
+         double aspect,
+         const Annotations & annotations,
+         const ViewFrame & frame,
+         int longerSide)
+{
+  const bool isFree = given.width == 0 && given.height == 0;
+  Projection picture;
+  picture.frame = frame;
+  picture.width = isFree || given.width > 0 ? std::max(given.width, isFree ? longerSide : 0) : given.height;
+  picture.height = isFree || given.height > 0 ? std::max(given.height, isFree ? longerSide : 0) : given.width;
+  SliceLayout layout;
+  constexpr int rounds = 5; // margins depend on the size
+  for (int n = 0; n < rounds; ++n)
   {
-    (aspect > 1.0 ? height : width) = longerSide;
+    layout.margins = LimitedMargins(annotations, picture);
+    const double besides = layout.margins.left + layout.margins.right;
+    const double aboves = layout.margins.top + layout.margins.bottom;
+    const double widest = isFree ? longerSide - besides : given.width > 0 ? given.width - besides : INFINITY;
+    const double highest = isFree ? longerSide - aboves : given.height > 0 ? given.height - aboves : INFINITY;
+    const double width = std::min(widest, highest / aspect);
+    const double thinnest = 0.25 * (isFree ? longerSide : std::max(given.width, given.height));
+    const auto sideOf = [thinnest](double side) { return static_cast<int>(std::lround(std::max(side, thinnest))); };
+    picture.width = given.width > 0 ? given.width : sideOf(width + besides);
+    picture.height = given.height > 0 ? given.height : sideOf(width * aspect + aboves);
   }
-  width = width > 0 ? width : std::max(1, static_cast<int>(std::lround(height / aspect)));
-  height = height > 0 ? height : std::max(1, static_cast<int>(std::lround(width * aspect)));
-  Projection sized;
-  sized.width = width;
-  sized.height = height;
-  return sized;
+  layout.margins = LimitedMargins(annotations, picture);
+  layout.width = picture.width;
+  layout.height = picture.height;
+  return layout;
+}
+
+/** The picture of a slice that is cut already.
+ * \param legend of its outlines
+ * \param given sizes, 0 for free ones */
+Picture
+DrawSlicePicture(const RenderScanSettings & settings,
+                 const PictureScene & scene,
+                 SceneSlice slice,
+                 const std::vector<LegendRow> & legend,
+                 const RenderSettings & given,
+                 double aspect,
+                 int longerSide)
+{
+  Annotations annotations = AnnotationsOf(settings, scene, { { 0.0, 0.0, 0.0 } });
+  annotations.title += (annotations.title.empty() ? "" : ", ") + slice.picture.caption + ", " + slice.picture.position;
+  annotations.legend = legend;
+  const SliceLayout layout = FitSlice(given, aspect, annotations, slice.picture.projection.frame, longerSide);
+  DrawSceneSlice(scene, settings.slice, layout.width, layout.height, layout.margins, slice.picture);
+  annotations.outlines = slice.picture.outlines;
+  Annotate(slice.picture.picture, slice.picture.projection, annotations);
+  return slice.picture.picture;
 }
 
 Picture
-DrawSliceWithOutlines(const RenderScanSettings & settings,
-                      const PictureScene & scene,
-                      const PlaneRequest & request,
-                      const Vector3 & point,
-                      int longerSide = LongerSide)
+DrawSliceWithOutlines(const RenderScanSettings & settings, const PictureScene & scene, const PlaneRequest & request)
 {
-  const Projection size = SizedSlice(settings.render, scene, request, point, longerSide);
-  const SheetPicture slice = DrawOutlinedSlice(scene, request, point, settings.slice, size.width, size.height);
-  Picture picture = slice.picture;
-  Annotations annotations = AnnotationsOf(settings, scene, { { 0.0, 0.0, 0.0 } });
-  annotations.title += (annotations.title.empty() ? "" : ", ") + slice.caption + ", " + slice.position;
-  annotations.legend.clear();
-  annotations.outlines = slice.outlines;
-  Annotate(picture, slice.projection, annotations);
-  return picture;
+  const Vector3 point = FindPlace(request, scene);
+  const SceneSlice slice = CutScene(scene, request, point, settings.slice);
+  return DrawSlicePicture(settings,
+                          scene,
+                          slice,
+                          LegendOfOutlines(settings, scene, slice.isSeen),
+                          settings.render,
+                          AspectOfSlice(scene, request, point),
+                          LongerSide);
 }
 
-/** Slices evenly along an axis, in one picture of the settings' size. */
+/** The picture with a legend in a column at its right. */
+Picture
+WithLegend(const Picture & picture, const Annotations & legend, int width)
+{
+  Picture wider(width, picture.height);
+  for (int y = 0; y < picture.height; ++y)
+  {
+    std::copy_n(picture.At(0, y), 3 * picture.width, wider.pixels.begin() + (wider.At(0, y) - wider.pixels.data()));
+  }
+  Projection page;
+  page.width = wider.width;
+  page.height = wider.height;
+  Annotate(wider, page, legend);
+  return wider;
+}
+
+/** Slices evenly along an axis, in one picture of the settings' size, with one legend. */
 Picture
 DrawLightbox(const RenderScanSettings & settings, const PictureScene & scene, const PlaneRequest & request)
 {
   constexpr int gap = 4; // pixels
   const int count = static_cast<int>(settings.slice.lightbox);
-  const std::vector<Vector3> points = SpreadEvenly(scene.box, FrameOf(request.plane), settings.slice.lightbox);
-  RenderScanSettings tile = settings;
-  tile.render.width = tile.render.height = 0;
-  const Projection free = SizedSlice(tile.render, scene, request, points.front(), LongerSideOfTile);
-  const int width = settings.render.width;
+  std::vector<SceneSlice> slices;
+  std::vector<bool> isSeen(scene.surfaces.size(), false);
+  for (const Vector3 & point : PlacesInLightbox(request, settings.slice, scene))
+  {
+    slices.push_back(CutScene(scene, request, point, settings.slice));
+    const std::vector<bool> & seen = slices.back().isSeen;
+    std::transform(seen.begin(), seen.end(), isSeen.begin(), isSeen.begin(), std::logical_or<>());
+  }
+  Annotations legend;
+  legend.letters = legend.scaleBar = legend.figure = false;
+  legend.legend = LegendOfOutlines(settings, scene, isSeen);
+  const auto legendWidth = [&legend](double width, double height) {
+    const int whole = static_cast<int>(width);
+    return static_cast<int>(std::ceil(MarginsOf(legend, whole, static_cast<int>(height), {}).right));
+  };
   const int height = settings.render.height;
+  constexpr double usual = 0.75; // height of a lightbox, divided by its width
+  int width = settings.render.width;
+  width -= width > 0 ? legendWidth(width, height > 0 ? height : usual * width) : 0;
+
+  const double aspect = AspectOfSlice(scene, request, slices.front().picture.projection.centre);
+  const int freeWidth = static_cast<int>(std::lround(LongerSideOfTile / std::max(1.0, aspect)));
+  const int freeHeight = static_cast<int>(std::lround(LongerSideOfTile / std::max(1.0, 1.0 / aspect)));
   const int columns = width > 0 && height > 0
-                        ? LightboxColumns(count, free.width, free.height, static_cast<double>(width) / height)
-                        : LightboxColumns(count, free.width, free.height);
+                        ? LightboxColumns(count, freeWidth, freeHeight, static_cast<double>(width) / height)
+                        : LightboxColumns(count, freeWidth, freeHeight);
   const int rows = (count + columns - 1) / columns;
+  RenderScanSettings tile = settings;
   tile.render.width = width > 0 ? std::max(1, (width - gap) / columns - gap) : 0;
   tile.render.height = height > 0 ? std::max(1, (height - gap) / rows - gap) : 0;
   std::vector<Picture> pictures;
-  for (const Vector3 & point : points)
+  for (const SceneSlice & slice : slices)
   {
-    pictures.push_back(DrawSliceWithOutlines(tile, scene, request, point, LongerSideOfTile));
+    pictures.push_back(DrawSlicePicture(tile, scene, slice, {}, tile.render, aspect, LongerSideOfTile));
     tile.annotations.title.clear(); // the first slice has it
   }
-  return MakeLightbox(pictures, gap, { 0.0, 0.0, 0.0 }, columns, width, height);
+  const Picture box = MakeLightbox(pictures, gap, { 0.0, 0.0, 0.0 }, columns, width, height);
+  const int whole =
+    settings.render.width > 0 ? settings.render.width : box.width + legendWidth(box.width / 0.8, box.height);
+  return legend.legend.empty() ? box : WithLegend(box, legend, whole);
 }
 
 /** The source with the names of all surfaces in the settings, so that unknown names are refused before the work. */
@@ -464,9 +609,8 @@ RenderScan(const RenderScanSettings & given, const Events & events, std::optiona
     const PlaneRequest & request = settings.slices[n];
     if (drawsAll || settings.onlyPicture == settings.views.size() + n + 1)
     {
-      pictures.push_back(settings.slice.lightbox > 0
-                           ? DrawLightbox(settings, scene, request)
-                           : DrawSliceWithOutlines(settings, scene, request, FindPlace(request, scene)));
+      pictures.push_back(settings.slice.lightbox > 0 ? DrawLightbox(settings, scene, request)
+                                                     : DrawSliceWithOutlines(settings, scene, request));
     }
   }
   OutputFiles outputs{ settings.provenance };

@@ -34,7 +34,7 @@ AspectOf(const PictureScene & scene)
   return width > 0.0 ? height / width : 1.0;
 }
 
-/** The names of a few surfaces, or the number of many. */
+/** The examination, and the names of a few surfaces, or the number of many. */
 std::string
 TitleOf(const PictureScene & scene)
 {
@@ -44,7 +44,7 @@ TitleOf(const PictureScene & scene)
   {
     names.push_back(row.name);
   }
-  return names.size() <= few ? Enumerate(names, "and") : Count(names.size(), "structure");
+  return scene.examination + ": " + (names.size() <= few ? Enumerate(names, "and") : Count(names.size(), "structure"));
 }
 
 /** A sheet that has the pictures' numbers only. */
@@ -59,11 +59,11 @@ EmptySheet(const RenderSheetSettings & settings, std::size_t slices)
   return sheet;
 }
 
-/** A sheet without its pictures. */
+/** A sheet without its pictures, but with the slices' outlines. */
 Sheet
-PlanSheet(const RenderSheetSettings & settings, const PictureScene & scene, std::size_t slices)
+PlanSheet(const RenderSheetSettings & settings, const PictureScene & scene, const std::vector<PlaneRequest> & planes)
 {
-  Sheet sheet = EmptySheet(settings, slices);
+  Sheet sheet = EmptySheet(settings, planes.size());
   sheet.title = settings.title.empty() ? TitleOf(scene) : settings.title;
   sheet.viewAspect = AspectOf(scene);
   sheet.rows = scene.rows;
@@ -77,10 +77,18 @@ PlanSheet(const RenderSheetSettings & settings, const PictureScene & scene, std:
     sheet.views[n].caption = settings.views[n].name;
     sheet.views[n].background = PaperOf(sheet);
   }
+  for (std::size_t n = 0; n < planes.size(); ++n)
+  {
+    const Vector3 point = planes[n].place.empty() ? PlaceOfMost(planes[n].plane, scene) : FindPlace(planes[n], scene);
+    SheetPicture & slice = sheet.slices[n];
+    slice = CutScene(scene, planes[n], point, settings.slice).picture;
+    slice.width = slice.projection.pixelSize * slice.projection.width;
+    slice.height = slice.projection.pixelSize * slice.projection.height;
+  }
   return sheet;
 }
 
-/** The planes of the slices: those asked for, or three through the middle; none without a scan or label map. */
+/** The planes of the slices: those asked for, or three; none without a scan or label map. */
 std::vector<PlaneRequest>
 PlanesOf(const RenderSheetSettings & settings)
 {
@@ -114,12 +122,31 @@ DrawViews(const RenderSheetSettings & settings,
   render.margins = MarginsOf(annotations, render.width, render.height, settings.views.front().frame);
   render.maximumMemory = settings.source.scan.lattice.maximumMemory;
   Scene scene;
-  scene.surfaces = source.surfaces;
+  scene.surfaces = ShadedSurfaces(source);
   auto drawn = renderer.Render(scene, render, settings.views);
   for (std::size_t n = 0; n < drawn.size(); ++n)
   {
     sheet.views[n].picture = std::move(drawn[n].picture);
     sheet.views[n].projection = drawn[n].projection.value();
+  }
+}
+
+/** Draws slices of one scale, each in the middle of its place. */
+void
+DrawSlices(const RenderSheetSettings & settings, const PictureScene & scene, const SheetPlaces & places, Sheet & sheet)
+{
+  for (std::size_t n = 0; n < sheet.slices.size(); ++n)
+  {
+    SheetPicture & slice = sheet.slices[n];
+    const Rectangle & place = places.slices[n];
+    const double beside = 0.5 * (place.width - places.sliceScale * slice.width);
+    const double above = 0.5 * (place.height - places.sliceScale * slice.height);
+    DrawSceneSlice(scene,
+                   settings.slice,
+                   static_cast<int>(std::lround(place.width)),
+                   static_cast<int>(std::lround(place.height)),
+                   { beside, beside, above, above },
+                   slice);
   }
 }
 
@@ -219,19 +246,11 @@ RenderSheet(const RenderSheetSettings & settings, const Events & events, std::op
   PictureScene scene = MakePictureScene(source, std::move(volume), true, events);
   OpenEnclosing(source.surfaces, {}, scene, events);
   events.Progress("drawing the page", 0.0);
-  Sheet sheet = PlanSheet(settings, scene, planes.size());
+  Sheet sheet = PlanSheet(settings, scene, planes);
   const SheetPlaces places = PlacesOn(sheet);
   DrawViews(settings, scene, places, renderer, sheet);
   events.Progress("drawing the page", 0.7);
-  for (std::size_t n = 0; n < planes.size(); ++n)
-  {
-    sheet.slices[n] = DrawOutlinedSlice(scene,
-                                        planes[n],
-                                        FindPlace(planes[n], scene),
-                                        settings.slice,
-                                        static_cast<int>(std::lround(places.slices[n].width)),
-                                        static_cast<int>(std::lround(places.slices[n].height)));
-  }
+  DrawSlices(settings, scene, places, sheet);
   OutputFiles outputs{ settings.provenance };
   const std::vector<Picture> pages = study || !IsPdf(settings.page) ? DrawSheet(sheet) : std::vector<Picture>();
   const std::vector<fs::path> paths = StageSheet(sheet, pages, settings, outputs.staged);

@@ -175,34 +175,58 @@ AddPlanes(const RenderScanSettings & settings, const PictureScene & source, Scen
   }
 }
 
-SheetPicture
-DrawOutlinedSlice(const PictureScene & scene,
-                  const PlaneRequest & request,
-                  const Vector3 & point,
-                  const SliceSettings & settings,
-                  int width,
-                  int height)
+SceneSlice
+CutScene(const PictureScene & scene,
+         const PlaneRequest & request,
+         const Vector3 & point,
+         const SliceSettings & settings)
 {
-  SheetPicture slice;
-  slice.projection = SliceOfSize(width, height, point, scene.box, FrameOf(request.plane, settings.convention));
-  slice.picture = scene.scan ? DrawSlice(*scene.scan, slice.projection, WindowFromText(settings.window, *scene.scan))
-                             : FillAreas(scene, slice.projection);
+  SceneSlice slice;
+  SheetPicture & picture = slice.picture;
+  picture.projection = SliceThrough(point, scene.box, FrameOf(request.plane, settings.convention));
   for (const SceneSurface & surface : scene.surfaces)
   {
-    if (!settings.outlines)
+    std::vector<Outline> outlines =
+      settings.outlines ? CutSurface(*surface.surface, picture.projection) : std::vector<Outline>();
+    for (Outline & outline : outlines)
     {
-      break;
+      picture.outlines.push_back({ std::move(outline.points), LineColourOnDark(surface.colour), outline.isClosed });
     }
-    for (Outline & outline : CutSurface(*surface.surface, slice.projection))
-    {
-      slice.outlines.push_back({ std::move(outline.points), surface.colour, outline.isClosed });
-    }
+    slice.isSeen.push_back(!outlines.empty());
   }
   const std::size_t axis = AxisOf(request.plane);
-  slice.caption =
+  picture.caption =
     NameOf(request.plane) + (settings.convention == SliceConvention::Neurological ? " (neurological)" : "");
-  slice.position = std::string(1, "xyz"[axis]) + " = " + FormatFixed(point[axis], 1) + " mm";
+  picture.position = std::string(1, "xyz"[axis]) + " = " + FormatFixed(point[axis], 1) + " mm";
   return slice;
+}
+
+void
+DrawSceneSlice(const PictureScene & scene,
+               const SliceSettings & settings,
+               int width,
+               int height,
+               const Margins & margins,
+               SheetPicture & slice)
+{
+  const Projection before = slice.projection;
+  slice.projection = SliceOfSize(width, height, before.centre, scene.box, before.frame, margins);
+  for (ColouredOutline & outline : slice.outlines)
+  {
+    for (PicturePosition & position : outline.points)
+    {
+      position = slice.projection.PositionOf(before.PointAt(position));
+    }
+  }
+  slice.picture = scene.scan ? DrawSlice(*scene.scan, slice.projection, WindowFromText(settings.window, *scene.scan))
+                             : FillAreas(scene, slice.projection);
+}
+
+double
+AspectOfSlice(const PictureScene & scene, const PlaneRequest & request, const Vector3 & point)
+{
+  const Projection whole = SliceThrough(point, scene.box, FrameOf(request.plane));
+  return static_cast<double>(whole.height) / static_cast<double>(whole.width);
 }
 
 } // namespace rhombic

@@ -201,6 +201,96 @@ TEST(Annotations, LegendShowsAllOrCountsTheRest)
   }
 }
 
+TEST(Annotations, LegendsHaveAColumnOfTheirOwnOfAFifthAtMost)
+{
+  for (const int width : { 300, 700, 1600 })
+  {
+    for (const std::size_t count : { 2, 12, 70 })
+    {
+      Annotations annotations = OnlyScaleBar();
+      annotations.scaleBar = false;
+      annotations.legend = Legend(count);
+      annotations.legend[0].name = "a name that is longer than any other one by far";
+      annotations.background = { { 0.2, 0.4, 0.6 } };
+      const Margins margins = MarginsOf(annotations, width, 900, Anterior);
+      EXPECT_LE(margins.right, 0.2 * width + 1e-9);
+      Picture picture(width, 900);
+      std::fill(picture.pixels.begin(), picture.pixels.end(), std::uint8_t{ 250 }); // a scene that fills the picture
+      Annotate(picture, { Anterior, {}, 1.0, width, 900 }, annotations);
+      const auto column = static_cast<int>(std::ceil(width - margins.right));
+      EXPECT_EQ(picture.At(column - 1, 450)[0], 250);
+      EXPECT_EQ(picture.At(column, 890)[2], 153);
+      EXPECT_EQ(picture.At(width - 1, 450)[0], 51);
+    }
+  }
+}
+
+TEST(Annotations, LongLegendsHaveHeadingsOfGroups)
+{
+  for (const std::size_t count : { 9, 10 })
+  {
+    Annotations annotations = OnlyScaleBar();
+    annotations.legend = Legend(count);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      annotations.legend[i].group = i % 3 == 0 ? "bones" : i % 3 == 1 ? "" : "vessels";
+    }
+    Drawing drawing(900, 900, 100.0, {});
+    DrawAnnotations(drawing, { 0.0, 0.0, 900.0, 900.0 }, { Anterior, {}, 1.0, 900, 900 }, annotations);
+    const auto text = rhombictest::TextOfPdf(drawing.TakeDocument());
+    if (!text)
+    {
+      GTEST_SKIP() << "pdftotext is not installed";
+    }
+    const auto bones = text->find("bones");
+    EXPECT_EQ(bones == std::string::npos, count == 9);
+    if (count == 10)
+    {
+      EXPECT_LT(bones, text->find(NameOf(3)));
+      EXPECT_LT(text->find(NameOf(9)), text->find("vessels"));
+      EXPECT_LT(text->find("vessels"), text->find("other"));
+      EXPECT_LT(text->find("other"), text->find(NameOf(1)));
+    }
+  }
+}
+
+/** CIE L*, a* and b* (D65). */
+std::array<double, 3>
+ToLab(const Colour & colour)
+{
+  const std::array<double, 3> rgb{ SRGBToLinear(colour[0]), SRGBToLinear(colour[1]), SRGBToLinear(colour[2]) };
+  const auto f = [](double t) { return t > 216.0 / 24389.0 ? std::cbrt(t) : (24389.0 / 27.0 * t + 16.0) / 116.0; };
+  const double x = f((0.4124564 * rgb[0] + 0.3575761 * rgb[1] + 0.1804375 * rgb[2]) / 0.95047);
+  const double y = f(0.2126729 * rgb[0] + 0.7151522 * rgb[1] + 0.0721750 * rgb[2]);
+  const double z = f((0.0193339 * rgb[0] + 0.1191920 * rgb[1] + 0.9503041 * rgb[2]) / 1.08883);
+  return { 116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z) };
+}
+
+TEST(Annotations, LinesOnDarkAreLightAndKeepTheirHue)
+{
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> component(0.0, 1.0);
+  for (int trial = 0; trial < 2000; ++trial)
+  {
+    const Colour colour{ component(random), component(random), component(random) };
+    const Colour line = LineColourOnDark(colour);
+    const auto before = ToLab(colour);
+    const auto after = ToLab(line);
+    EXPECT_GE(after[0], 65.0);
+    if (before[0] > 65.2)
+    {
+      EXPECT_EQ(line, colour);
+    }
+    // Mixing with white keeps the dominant wavelength; the hue angle of CIELAB turns with blue.
+    const double chroma = std::hypot(after[1], after[2]) * std::hypot(before[1], before[2]);
+    if (chroma > 100.0)
+    {
+      EXPECT_GT((before[1] * after[1] + before[2] * after[2]) / chroma, std::cos(35.0 * std::acos(-1.0) / 180.0));
+    }
+  }
+  EXPECT_GE(ToLab(LineColourOnDark({ 0.0, 0.0, 0.0 }))[0], 65.0);
+}
+
 TEST(Annotations, VolumesAreWrittenWithOneDecimal)
 {
   EXPECT_EQ(FormatVolume(1584.94), "1584.9");

@@ -51,7 +51,7 @@ MakeSheet(std::size_t rows, bool isLandscape, bool isDark, double viewAspect = 1
   sheet.provenance = { "lattice: face-centered cubic", "program: rhombic test" };
   for (std::size_t i = 0; i < rows; ++i)
   {
-    sheet.rows.push_back({ RowName(i), { 0.9, 0.3, 0.2 }, 10.0 + static_cast<double>(i), 5.0, -70.0 });
+    sheet.rows.push_back({ RowName(i), { 0.9, 0.3, 0.2 }, 10.0 + static_cast<double>(i), 5.0, -70.0, "" });
   }
   sheet.views.resize(4);
   sheet.slices.resize(3);
@@ -128,7 +128,7 @@ TEST(Sheet, PagesGoOnUntilAllRowsAreThere)
       EXPECT_EQ(pdf.bytes, DrawSheetPdf(sheet, "rhombic test").bytes);
       if (rows <= 62 && !isLandscape)
       {
-        EXPECT_EQ(pdf.count, 1u);
+        EXPECT_EQ(pdf.count, rows < 20 ? 1u : 2u);
       }
       const auto text = rhombictest::TextOfPdf(pdf.bytes);
       if (!text)
@@ -210,6 +210,50 @@ TEST(Sheet, PagesBecomeFiles)
   const std::vector<Picture> read = ReadPictures(folder.Path() / "page.tif");
   ASSERT_EQ(read.size(), pdf.count);
   EXPECT_EQ(read.back().pixels, pages.back().pixels);
+}
+
+TEST(Sheet, LongTablesLeaveTheFirstPageToThePictures)
+{
+  const Sheet sheet = MakeSheet(61, false, false);
+  for (const Rectangle & view : PlacesOn(sheet).views)
+  {
+    EXPECT_GE(view.height, 80.0 * sheet.pixelsPerInch / 25.4);
+  }
+}
+
+TEST(Sheet, SlicesOfKnownSizeHaveOneScaleAndRoomForLetters)
+{
+  for (const bool isLandscape : { false, true })
+  {
+    for (const std::size_t rows : { 2, 40 })
+    {
+      for (const Vector3 & box : { Vector3{ 300, 300, 300 }, { 452, 452, 1009 }, { 300, 250, 15 }, { 20, 30, 40 } })
+      {
+        Sheet sheet = MakeSheet(rows, isLandscape, false);
+        const double sizes[3][2] = { { box[0], box[1] }, { box[0], box[2] }, { box[1], box[2] } };
+        for (std::size_t n = 0; n < 3; ++n)
+        {
+          sheet.slices[n].width = sizes[n][0];
+          sheet.slices[n].height = sizes[n][1];
+        }
+        const SheetPlaces places = PlacesOn(sheet);
+        const double letters = 6.9 * sheet.pixelsPerInch / 25.4;
+        ASSERT_GT(places.sliceScale, 0.0);
+        for (std::size_t n = 0; n < 3; ++n)
+        {
+          EXPECT_GE(places.slices[n].width, places.sliceScale * sizes[n][0] + 2.0 * letters);
+          EXPECT_GE(places.slices[n].height, places.sliceScale * sizes[n][1] + 2.0 * letters);
+          EXPECT_LE(places.slices[n].Right(), places.width);
+          EXPECT_LE(places.slices[n].Bottom(), places.height);
+          for (const Rectangle & view : places.views)
+          {
+            EXPECT_FALSE(Overlap(places.slices[n], view));
+            EXPECT_GE(view.height, 39.0 * sheet.pixelsPerInch / 25.4);
+          }
+        }
+      }
+    }
+  }
 }
 
 TEST(Sheet, TooManyPicturesAreUsage)

@@ -18,6 +18,7 @@ struct LegendRow
   std::optional<double> volume; ///< ml
   std::optional<double> area;   ///< cm2; on sheets
   std::optional<double> mean;   ///< mean value of the scan inside the surface; on sheets
+  std::string group;            ///< heading of long legends: "bones", "vessels"; empty: "other"
 };
 
 /** A line over a picture, in its pixels: the edge of a surface in a slice. */
@@ -36,26 +37,32 @@ struct Annotations
   bool figure = true;            ///< a small human figure as the view sees it, at the bottom right
   std::string title;             ///< one line at the top left
   std::string footnote;          ///< at the bottom left, small; lines end with \n
-  std::vector<LegendRow> legend; ///< names and volumes at the right
+  std::vector<LegendRow> legend; ///< names and volumes in a column at the right
   std::vector<ColouredOutline> outlines;
   Ink background{ { 0.0, 0.0, 0.0 } }; ///< of the picture: text is white on a dark picture, else black
   double textSize = 0.0;               ///< pixels; 0: 1.8 % of the picture's shorter side, at least 11
 };
 
 /** The pixels that the annotations of a picture need at its edges. The figure needs none: it covers a corner. The
- * legend takes at most two fifths of the width. */
+ * column of the legend takes at most a fifth of the width. */
 Margins
 MarginsOf(const Annotations & annotations, int width, int height, const ViewFrame & frame);
 
-/** Draws the annotations of a picture that \a projection describes and that lies at \a place. Text keeps its size
- * down to half of the size where the legend is long; the legend's last line counts further rows. */
+/** The colour of a line over a dark picture: of lightness 65 or more (CIE L*, D65) and the same hue. Darker colours are
+ * made brighter, then mixed with white. */
+Colour
+LineColourOnDark(const Colour & colour);
+
+/** Draws the annotations of a picture that \a projection describes and that lies at \a place. The text of long legends
+ * is smaller; the legend's last line counts rows that have no place. Outlines have dark halos. */
 void
 DrawAnnotations(Drawing & drawing,
                 const Rectangle & place,
                 const Projection & projection,
                 const Annotations & annotations);
 
-/** Draws annotations over a picture of the projection's size. */
+/** Draws annotations over a picture of the projection's size. The column of the legend gets the background, whatever
+ * the picture has there. */
 void
 Annotate(Picture & picture, const Projection & projection, const Annotations & annotations);
 

@@ -17,25 +17,29 @@ struct SheetPicture
   Ink background{ { 0.0, 0.0, 0.0 } }; ///< of the picture, for the colour of letters
   std::string caption;                 ///< "anterior", "axial"
   std::string position;                ///< beside the caption, grey: "z = -123.4 mm"
+  double width = 0.0;                  ///< of a slice, in mm
+  double height = 0.0;                 ///< of a slice, in mm
   std::vector<ColouredOutline> outlines;
 };
 
 /** \class Sheet
  * \brief A4 pages about a segmentation: views, slices, a table of surfaces, and lines about their origin.
  *
- * A table that is too long for the first page goes on in columns of further pages. */
+ * A table of 20 rows or more begins on the second page, with the lines about the origin; in landscape one that is too
+ * long for the first page goes on there. Long tables have headings of groups. Slices whose widths and heights are all
+ * known have one scale, and the first has the scale bar of all. */
 struct Sheet
 {
   std::string title;
   std::string subtitle;
   std::vector<SheetPicture> views;  ///< up to 4, side by side or two by two, whichever shows the scene larger
-  std::vector<SheetPicture> slices; ///< up to 3, in square places
+  std::vector<SheetPicture> slices; ///< up to 3; in square places, if not all of their sizes are known
   double viewAspect = 1.3;          ///< height of the scene in the views, divided by its width
   std::vector<LegendRow> rows;
   std::string meanUnit;                ///< of LegendRow::mean: "HU"
   std::vector<std::string> provenance; ///< lines about scan, lattice and program; a colon ends the grey name of a value
   bool letters = true;                 ///< at the edges of the pictures
-  bool scaleBar = true;                ///< in each picture
+  bool scaleBar = true;                ///< in each view, and in slices
   bool isLandscape = false;
   bool isDark = false;
   double pixelsPerInch = 200.0;
@@ -48,6 +52,7 @@ struct SheetPlaces
   int height = 0;
   std::vector<Rectangle> views;
   std::vector<Rectangle> slices;
+  double sliceScale = 0.0; ///< pixels per mm of all slices, each in the middle of its place; 0: each fits its place
 };
 
 /** The places of Sheet::views and Sheet::slices. All members of the sheet but the pictures' pixels decide about the

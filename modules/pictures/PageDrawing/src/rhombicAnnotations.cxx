@@ -1,9 +1,11 @@
 #include "rhombicAnnotations.h"
 
 #include "rhombicFailure.h"
+#include "rhombicLegend.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace rhombic
@@ -11,17 +13,17 @@ namespace rhombic
 namespace
 {
 
-constexpr double TextShare = 0.018;     // of the picture's shorter side
-constexpr double SmallestText = 11.0;   // pixels
-constexpr double LegendShare = 0.4;     // of the picture's width, at most
-constexpr double LegendRowPitch = 1.45; // the following are multiples of the text's size
-constexpr double LongestName = 18.0;
-constexpr double LetterSize = 1.5;
+constexpr double TextShare = 0.018;   // of the picture's shorter side
+constexpr double SmallestText = 11.0; // pixels
+constexpr double LegendShare = 0.2;   // of the picture's width, at most, with the padding
+constexpr double LetterSize = 1.5;    // the following are multiples of the text's size
 constexpr double FurtherLetterSize = 1.05;
 constexpr double TitleSize = 1.35;
 constexpr double FootnoteSize = 0.75;
 constexpr double FigureSize = 5.5;
 constexpr double OutlineWidth = 0.107;
+constexpr double SmallestOutlineWidth = 2.0; // pixels
+constexpr double OutlineHaloOpacity = 0.55;
 constexpr double BarThickness = 0.16;
 constexpr double BarShare = 0.3; // of the picture's width, at most
 
@@ -37,72 +39,6 @@ StyleOn(const Ink & background, double size)
   return style;
 }
 
-/** A legend's text size and columns, and the number of its rows that are shown. */
-struct LegendLayout
-{
-  double size = 0.0;
-  double nameWidth = 0.0;
-  double volumeWidth = 0.0;
-  std::size_t rows = 0; ///< in a column
-  std::size_t columns = 0;
-  std::size_t shown = 0; ///< rows of the legend; the last line counts the others
-
-  double
-  ColumnWidth() const
-  {
-    return 1.3 * size + nameWidth + (volumeWidth > 0.0 ? size + volumeWidth : 0.0);
-  }
-  double
-  Width() const
-  {
-    return columns == 0 ? 0.0 : static_cast<double>(columns) * (ColumnWidth() + 1.5 * size) - 1.5 * size;
-  }
-};
-
-LegendLayout
-FitLegend(const Drawing & drawing,
-          const std::vector<LegendRow> & legend,
-          const TextStyle & style,
-          const Rectangle & area)
-{
-  LegendLayout layout;
-  if (legend.empty())
-  {
-    return layout;
-  }
-  double nameWidth = 0.0; // in multiples of the size
-  double volumeWidth = 0.0;
-  for (const LegendRow & row : legend)
-  {
-    nameWidth = std::max(nameWidth, drawing.WidthOf(row.name, style) / style.size);
-    const double width = row.volume ? drawing.WidthOf(FormatVolume(*row.volume) + " ml", style) / style.size : 0.0;
-    volumeWidth = std::max(volumeWidth, width);
-  }
-  nameWidth = std::min(nameWidth, LongestName);
-  const double smallest = std::max(0.5 * style.size, std::min(style.size, 9.0));
-  for (layout.size = style.size;; layout.size = std::max(0.97 * layout.size, smallest))
-  {
-    layout.nameWidth = 1.01 * nameWidth * layout.size;
-    layout.volumeWidth = volumeWidth * layout.size;
-    layout.rows = std::max<std::size_t>(1, static_cast<std::size_t>(area.height / (LegendRowPitch * layout.size)));
-    layout.columns = (legend.size() + layout.rows - 1) / layout.rows;
-    layout.shown = legend.size();
-    if (layout.Width() <= area.width || layout.size <= smallest)
-    {
-      break;
-    }
-  }
-  while (layout.columns > 1 && layout.Width() > area.width)
-  {
-    --layout.columns;
-  }
-  if (legend.size() > layout.columns * layout.rows)
-  {
-    layout.shown = layout.columns * layout.rows - 1;
-  }
-  return layout;
-}
-
 /** Where the annotations of a picture go. */
 struct Arrangement
 {
@@ -111,9 +47,10 @@ struct Arrangement
   double titleHeight = 0.0;
   double footnoteHeight = 0.0;
   double letterWidth = 0.0; ///< of the wider of left and right
+  Rectangle picture;        ///< the place without the legend's column
   Rectangle scene;          ///< the part of the picture without annotations
-  Rectangle legendArea;
   LegendLayout legend;
+  double top = 0.0; ///< of the legend
 };
 
 double
@@ -159,46 +96,43 @@ Arrange(const Drawing & drawing, const Rectangle & place, const ViewFrame & fram
     std::max(WidthOfLetters(drawing, letters.left, a.text), WidthOfLetters(drawing, letters.right, a.text));
   const double top = place.top + a.padding + a.titleHeight;
   const double bottom = place.Bottom() - a.padding - a.footnoteHeight;
-  a.legendArea = { 0.0, top, LegendShare * place.width - a.padding, bottom - top };
-  a.legend = FitLegend(drawing, annotations.legend, a.text, a.legendArea);
-  a.legendArea.width = a.legend.Width();
-  a.legendArea.left = place.Right() - a.padding - a.legendArea.width;
+  a.legend = FitLegend(drawing, annotations.legend, a.text, LegendShare * place.width - 2.0 * a.padding, bottom - top);
+  const double column = a.legend.lines.empty() ? 0.0 : a.legend.Width() + 2.0 * a.padding;
+  a.picture = { place.left, place.top, place.width - column, place.height };
+  a.top = top;
 
   const double side = annotations.letters ? a.letterWidth + 1.6 * a.padding : 0.0;
   const double above = annotations.letters ? (LetterSize + 0.4) * size : 0.0;
   const double below = std::max(above, annotations.scaleBar ? 1.9 * size : 0.0);
-  const double right = a.legend.columns > 0 ? a.legendArea.left - a.padding : place.Right();
   const bool isTopFree = a.titleHeight == 0.0 && above == 0.0;
   const bool isBottomFree = a.footnoteHeight == 0.0 && below == 0.0;
   a.scene.left = place.left + side;
-  a.scene.width = right - side - a.scene.left;
+  a.scene.width = a.picture.Right() - side - a.scene.left;
   a.scene.top = isTopFree ? place.top : top + above;
   a.scene.height = (isBottomFree ? place.Bottom() : bottom - below) - a.scene.top;
   return a;
 }
 
-/** \a scale enlarges the picture's pixels to those of the drawing. */
+/** Draws the lines over the halos of all. \a scale enlarges the picture's pixels to those of the drawing. */
 void
-DrawOutlines(Drawing & drawing,
-             const Rectangle & place,
-             double scale,
-             const std::vector<ColouredOutline> & outlines,
-             double textSize)
+DrawOutlines(Drawing & drawing, const Arrangement & a, double scale, const std::vector<ColouredOutline> & outlines)
 {
-  LineStyle style;
-  style.width = OutlineWidth * textSize;
-  style.halo = { { 0.0, 0.0, 0.0 }, 0.35 };
-  style.haloWidth = style.width / 3.0;
-  drawing.Clip(place);
-  for (const ColouredOutline & outline : outlines)
+  const double width = std::max(SmallestOutlineWidth, OutlineWidth * a.text.size);
+  drawing.Clip(a.picture);
+  for (const bool isHalo : { true, false })
   {
-    std::vector<PicturePosition> points = outline.points;
-    for (PicturePosition & point : points)
+    for (const ColouredOutline & outline : outlines)
     {
-      point = { place.left + scale * point.x, place.top + scale * point.y };
+      std::vector<PicturePosition> points = outline.points;
+      for (PicturePosition & point : points)
+      {
+        point = { a.picture.left + scale * point.x, a.picture.top + scale * point.y };
+      }
+      LineStyle style;
+      style.width = isHalo ? 2.0 * width : width;
+      style.ink = isHalo ? Ink{ { 0.0, 0.0, 0.0 }, OutlineHaloOpacity } : Ink{ outline.colour };
+      drawing.Line(points, style, outline.isClosed);
     }
-    style.ink = { outline.colour };
-    drawing.Line(points, style, outline.isClosed);
   }
   drawing.Unclip();
 }
@@ -223,7 +157,7 @@ DrawEdgeLetters(Drawing & drawing, const Rectangle & place, const ViewFrame & fr
 {
   const EdgeLetters letters = EdgeLettersOf(frame);
   const double capitals = 0.73 * LetterSize * a.text.size;
-  const double right = a.legend.columns > 0 ? a.legendArea.left - a.padding : place.Right() - a.padding;
+  const double right = a.picture.Right() - a.padding;
   const double x = a.scene.left + 0.5 * a.scene.width;
   const double y = a.scene.top + 0.5 * (a.scene.height + capitals);
   DrawLetters(drawing, letters.left, { place.left + a.padding, y }, 0.0, a.text);
@@ -258,36 +192,6 @@ DrawScaleBar(Drawing & drawing, double left, double bottom, double pixelSize, do
 }
 
 void
-DrawLegend(Drawing & drawing, const std::vector<LegendRow> & legend, const Arrangement & a)
-{
-  const LegendLayout & layout = a.legend;
-  TextStyle name = a.text;
-  name.size = layout.size;
-  TextStyle volume = name;
-  volume.alignment = Alignment::Right;
-  name.largestWidth = layout.nameWidth;
-  for (std::size_t i = 0; i < std::min(legend.size(), layout.shown + 1); ++i)
-  {
-    const double x =
-      a.legendArea.left + static_cast<double>(i / layout.rows) * (layout.ColumnWidth() + 1.5 * layout.size);
-    const double y = a.legendArea.top + (static_cast<double>(i % layout.rows) + 0.5) * LegendRowPitch * layout.size;
-    if (i == layout.shown)
-    {
-      drawing.TextAbout("and " + std::to_string(legend.size() - layout.shown) + " more", { x, y }, name);
-      return;
-    }
-    const Rectangle swatch{ x, y - 0.42 * layout.size, 0.84 * layout.size, 0.84 * layout.size };
-    drawing.Fill(swatch.Inset(-0.07 * layout.size), a.text.halo, 0.2 * layout.size);
-    drawing.Fill(swatch, { legend[i].colour }, 0.15 * layout.size);
-    drawing.TextAbout(legend[i].name, { x + 1.3 * layout.size, y }, name);
-    if (legend[i].volume)
-    {
-      drawing.TextAbout(FormatVolume(*legend[i].volume) + " ml", { x + layout.ColumnWidth(), y }, volume);
-    }
-  }
-}
-
-void
 DrawTitle(Drawing & drawing, const Rectangle & place, const std::string & title, const Arrangement & a)
 {
   TextStyle style = a.text;
@@ -307,6 +211,21 @@ DrawFootnote(Drawing & drawing, const Rectangle & place, const std::string & foo
   }
 }
 
+/** Fills the columns from \a first on with a colour. */
+void
+EraseColumns(int first, const Ink & ink, Picture & picture)
+{
+  const auto bytes = ToBytes(ink.colour);
+  const std::array<std::uint8_t, 4> pixel{ bytes[0], bytes[1], bytes[2], ToByte(ink.opacity) };
+  for (int y = 0; y < picture.height; ++y)
+  {
+    for (int x = first; x < picture.width; ++x)
+    {
+      std::copy_n(pixel.begin(), picture.channels, picture.pixels.begin() + (picture.At(x, y) - picture.pixels.data()));
+    }
+  }
+}
+
 } // namespace
 
 Margins
@@ -316,6 +235,29 @@ MarginsOf(const Annotations & annotations, int width, int height, const ViewFram
   const Rectangle place{ 0.0, 0.0, static_cast<double>(width), static_cast<double>(height) };
   const Rectangle scene = Arrange(measuring, place, frame, annotations).scene;
   return { scene.left, place.width - scene.Right(), scene.top, place.height - scene.Bottom() };
+}
+
+Colour
+LineColourOnDark(const Colour & colour)
+{
+  constexpr double least = 0.3416; // luminance of L* 65.1: components are rounded to bytes
+  const auto luminanceOf = [](const Colour & linear) {
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]; // ITU-R BT.709
+  };
+  Colour linear{ SRGBToLinear(colour[0]), SRGBToLinear(colour[1]), SRGBToLinear(colour[2]) };
+  const double luminance = luminanceOf(linear);
+  if (luminance >= least)
+  {
+    return colour;
+  }
+  const double largest = *std::max_element(linear.begin(), linear.end());
+  const double gain = luminance > 0.0 ? std::min(least / luminance, 1.0 / largest) : 1.0;
+  const double white = std::max(0.0, (least - gain * luminance) / (1.0 - gain * luminance));
+  for (double & component : linear)
+  {
+    component = LinearToSRGB(gain * component + white * (1.0 - gain * component));
+  }
+  return linear;
 }
 
 void
@@ -330,11 +272,11 @@ DrawAnnotations(Drawing & drawing,
   }
   const Arrangement a = Arrange(drawing, place, projection.frame, annotations);
   const double bottom = place.Bottom() - a.padding - a.footnoteHeight;
-  DrawOutlines(drawing, place, place.width / projection.width, annotations.outlines, a.text.size);
+  DrawOutlines(drawing, a, place.width / projection.width, annotations.outlines);
   if (annotations.figure)
   {
     const double size = FigureSize * a.text.size;
-    const double right = a.legend.columns > 0 ? a.legendArea.left - a.padding : place.Right() - 0.6 * a.padding;
+    const double right = a.picture.Right() - 0.6 * a.padding;
     DrawOrientationFigure(drawing, { right - size, bottom - size, size, size }, projection.frame, a.text.halo);
   }
   if (annotations.letters)
@@ -348,7 +290,7 @@ DrawAnnotations(Drawing & drawing,
     const double letter = a.scene.left + 0.5 * a.scene.width - 2.0 * a.text.size; // at the bottom edge
     DrawScaleBar(drawing, left, bottom, pixelSize, std::min(BarShare * place.width, letter - left), a.text);
   }
-  DrawLegend(drawing, annotations.legend, a);
+  DrawLegend(drawing, a.legend, { a.picture.Right() + a.padding, a.top }, a.text);
   if (!annotations.title.empty())
   {
     DrawTitle(drawing, place, annotations.title, a);
@@ -363,10 +305,10 @@ void
 Annotate(Picture & picture, const Projection & projection, const Annotations & annotations)
 {
   Drawing drawing(picture.width, picture.height);
-  DrawAnnotations(drawing,
-                  { 0.0, 0.0, static_cast<double>(picture.width), static_cast<double>(picture.height) },
-                  projection,
-                  annotations);
+  const Rectangle place{ 0.0, 0.0, static_cast<double>(picture.width), static_cast<double>(picture.height) };
+  const double end = Arrange(drawing, place, projection.frame, annotations).picture.Right();
+  EraseColumns(static_cast<int>(std::ceil(end)), annotations.background, picture);
+  DrawAnnotations(drawing, place, projection, annotations);
   drawing.PutOnto(picture);
 }
 

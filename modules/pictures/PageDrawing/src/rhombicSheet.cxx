@@ -31,18 +31,26 @@ public:
   {
     const std::size_t first = m_Plan.first.columns * m_Plan.first.rows;
     const std::size_t further = m_Plan.further.columns * m_Plan.further.rows;
-    const std::size_t count = m_Sheet.rows.size();
+    const std::size_t count = m_Plan.lines.size();
     m_Pages = 1 + (count > first ? (count - first + further - 1) / further : 0);
     BeginPage(1);
-    DrawPictures(m_Sheet.views, m_Plan.places.views);
-    DrawPictures(m_Sheet.slices, m_Plan.places.slices);
+    DrawPictures(m_Sheet.views, m_Plan.places.views, m_Sheet.scaleBar, m_Sheet.scaleBar);
+    const bool hasOneScale = m_Plan.places.sliceScale > 0.0;
+    DrawPictures(m_Sheet.slices, m_Plan.places.slices, m_Sheet.scaleBar, m_Sheet.scaleBar && !hasOneScale);
     std::size_t drawn = DrawTable(0, m_Plan.first);
-    DrawProvenance();
+    if (!m_Plan.isTableApart)
+    {
+      DrawProvenance();
+    }
     for (std::size_t page = 2; page <= m_Pages; ++page)
     {
       m_Drawing.NextPage();
       BeginPage(page);
       drawn = DrawTable(drawn, m_Plan.further);
+      if (m_Plan.isTableApart && page == m_Pages)
+      {
+        DrawProvenance();
+      }
     }
   }
 
@@ -101,17 +109,20 @@ private:
   }
 
   void
-  DrawPictures(const std::vector<SheetPicture> & pictures, const std::vector<Rectangle> & places)
+  DrawPictures(const std::vector<SheetPicture> & pictures,
+               const std::vector<Rectangle> & places,
+               bool firstHasBar,
+               bool othersHaveBars)
   {
     for (std::size_t i = 0; i < pictures.size(); ++i)
     {
-      DrawPicture(pictures[i], places[i]);
+      DrawPicture(pictures[i], places[i], i == 0 ? firstHasBar : othersHaveBars);
       DrawCaption(pictures[i], places[i]);
     }
   }
 
   void
-  DrawPicture(const SheetPicture & picture, const Rectangle & place)
+  DrawPicture(const SheetPicture & picture, const Rectangle & place, bool hasBar)
   {
     if (picture.picture.pixels.empty())
     {
@@ -127,7 +138,7 @@ private:
     m_Drawing.Place(picture.picture, fitted);
     Annotations annotations;
     annotations.letters = m_Sheet.letters;
-    annotations.scaleBar = m_Sheet.scaleBar;
+    annotations.scaleBar = hasBar;
     annotations.figure = false;
     annotations.outlines = picture.outlines;
     annotations.background = picture.background;
@@ -152,7 +163,7 @@ private:
   std::size_t
   DrawTable(std::size_t begin, const TableArea & table)
   {
-    const std::size_t end = std::min(m_Sheet.rows.size(), begin + table.columns * table.rows);
+    const std::size_t end = std::min(m_Plan.lines.size(), begin + table.columns * table.rows);
     const std::size_t columns = table.columns;
     const std::size_t rows = (end - begin + columns - 1) / columns;
     const double gap = 2.0 * Millimetres(sheet::Gap);
@@ -166,7 +177,7 @@ private:
       for (std::size_t row = 0; row < rows && begin + column * rows + row < end; ++row)
       {
         place.top = table.area.top + Millimetres(sheet::HeadingHeight) + static_cast<double>(row) * m_Plan.rowPitch;
-        DrawTableRow(m_Sheet.rows[begin + column * rows + row], place);
+        DrawTableLine(m_Plan.lines[begin + column * rows + row], place);
       }
     }
     return end;
@@ -211,6 +222,20 @@ private:
     m_Drawing.TextAbout("structure", { place.left, middle }, style);
     DrawFigures(FiguresOf(nullptr), place, middle, style);
     Rule(place.left, place.Right(), place.top + Millimetres(sheet::HeadingHeight), m_Grey);
+  }
+
+  void
+  DrawTableLine(const LegendLine & line, const Rectangle & place)
+  {
+    if (line.row)
+    {
+      DrawTableRow(*line.row, place);
+      return;
+    }
+    TextStyle style = TextOf(1.0, m_Grey);
+    style.size = m_Plan.tableText;
+    style.bold = true;
+    m_Drawing.TextAbout(line.heading, { place.left, place.top + 0.55 * m_Plan.rowPitch }, style);
   }
 
   void

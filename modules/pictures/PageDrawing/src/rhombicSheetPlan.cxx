@@ -21,10 +21,11 @@ constexpr double LargestTableShare = 0.47; // for others; longer tables go on on
 constexpr double RowPitch = 4.5;
 constexpr double TightRowPitch = 3.6;
 constexpr double RowTextShare = 0.62;      // of the row pitch
-constexpr double RoomForLetters = 7.0;     // at each edge of a view
 constexpr double SmallestView = 40.0;      // height
+constexpr double UsualView = 80.0;         // height that tall slices leave
 constexpr double PreferenceOfOneRow = 0.9; // two rows fill the page better
 constexpr std::size_t RowsBesideProvenance = 9;
+constexpr std::size_t RowsOfTableApart = 20;
 
 std::size_t
 DivideUp(std::size_t a, std::size_t b)
@@ -101,20 +102,65 @@ PlaceViews(const Sheet & s, const Rectangle & area, std::vector<Rectangle> & pla
   return places.back().Bottom() + CaptionHeight + Gap;
 }
 
+/** The height of square places beside each other. */
 double
 SliceHeight(double width)
 {
   return (width - 2.0 * Gap) / 3.0;
 }
 
+/** Places beside each other for slices of one scale, with room for letters about each; square places if the sizes of
+ * slices are not known. The scale is in mm of paper per mm. Returns the height of the row. */
+double
+PlaceSlices(const Sheet & s, const Rectangle & area, SheetPlaces & places)
+{
+  const bool hasSizes = std::all_of(s.slices.begin(), s.slices.end(), [](const SheetPicture & slice) {
+    return slice.width > 0.0 && slice.height > 0.0;
+  });
+  if (!hasSizes || s.slices.empty())
+  {
+    places.slices = Grid(area, s.slices.size(), 3, SliceHeight(area.width));
+    return s.slices.empty() ? 0.0 : SliceHeight(area.width);
+  }
+  double widths = 0.0;
+  double highest = 0.0;
+  for (const SheetPicture & slice : s.slices)
+  {
+    widths += slice.width;
+    highest = std::max(highest, slice.height);
+  }
+  const auto count = static_cast<double>(s.slices.size());
+  const double free = area.width - Gap * (count - 1.0) - 2.0 * RoomForLetters * count;
+  const double ofHeight = (std::max(area.height, SliceHeight(area.width)) - 2.0 * RoomForLetters) / highest;
+  const double ofWidth = free / widths;
+  const double ofSquares =
+    (SliceHeight(area.width) - 2.0 * RoomForLetters) * count / widths; // one or two are no larger
+  places.sliceScale = std::min({ ofHeight, ofWidth, ofSquares });
+  const double beside = (std::min(ofWidth, ofSquares) - places.sliceScale) * widths / count;
+  double left = area.left;
+  for (const SheetPicture & slice : s.slices)
+  {
+    const double width = places.sliceScale * slice.width + 2.0 * RoomForLetters + beside;
+    places.slices.push_back({ left, area.top, width, places.sliceScale * slice.height + 2.0 * RoomForLetters });
+    left += width + Gap;
+  }
+  return places.sliceScale * highest + 2.0 * RoomForLetters;
+}
+
 /** Views over slices. Returns the bottom edge. */
 double
 PlacePictures(const Sheet & s, const Rectangle & area, SheetPlaces & places)
 {
-  const double slices = s.slices.empty() ? 0.0 : SliceHeight(area.width) + CaptionHeight + Gap;
+  const double views = s.views.empty() ? 0.0 : UsualView + CaptionHeight + Gap;
+  const Rectangle largest{ area.left, area.top, area.width, area.height - views - CaptionHeight - Gap };
+  const double height = PlaceSlices(s, largest, places);
+  const double slices = s.slices.empty() ? 0.0 : height + CaptionHeight + Gap;
   const double top = PlaceViews(s, { area.left, area.top, area.width, area.height - slices }, places.views);
-  places.slices = Grid({ area.left, top, area.width, slices }, s.slices.size(), 3, SliceHeight(area.width));
-  return s.slices.empty() ? top : top + slices;
+  for (Rectangle & place : places.slices)
+  {
+    place.top += top - area.top;
+  }
+  return top + slices;
 }
 
 /** The height of each line of provenance in a column. */
@@ -150,6 +196,18 @@ DivideProvenance(std::size_t columns, SheetPlan & plan)
   return heights.empty() ? 0.0 : HeadingHeight + std::max(first, total - first);
 }
 
+/** Pictures on the first page; table, and provenance under it, on further ones. */
+void
+PlanApart(const Sheet & s, SheetPlan & plan)
+{
+  const Rectangle & content = plan.content;
+  plan.isTableApart = true;
+  plan.provenanceHeights = MeasureProvenance(s, 0.5 * content.width - Gap, plan.millimetre);
+  const double provenance = DivideProvenance(2, plan);
+  plan.provenance = { content.left, content.Bottom() - provenance, content.width, provenance };
+  PlacePictures(s, content, plan.places);
+}
+
 /** Table under the pictures, provenance beside it when the table is short, else under it. */
 void
 PlanPortrait(const Sheet & s, SheetPlan & plan)
@@ -160,7 +218,7 @@ PlanPortrait(const Sheet & s, SheetPlan & plan)
   const double half = 0.5 * content.width - Gap;
   plan.provenanceHeights = MeasureProvenance(s, half, plan.millimetre);
   const double provenance = DivideProvenance(isBeside ? 1 : 2, plan);
-  const double rows = static_cast<double>(DivideUp(s.rows.size(), plan.first.columns));
+  const double rows = static_cast<double>(DivideUp(plan.lines.size(), plan.first.columns));
   double table = s.rows.empty() ? 0.0 : HeadingHeight + RowPitch * rows;
   if (table > WideTableShare * content.height)
   {
@@ -221,6 +279,7 @@ ScaleToPixels(SheetPlan & plan)
   {
     height *= plan.millimetre;
   }
+  plan.places.sliceScale *= plan.millimetre;
   plan.rowPitch *= plan.millimetre;
   plan.tableText = RowTextShare * plan.rowPitch;
 }
@@ -256,17 +315,19 @@ PlanSheet(const Sheet & s)
   plan.places.height = static_cast<int>(std::lround(height * plan.millimetre));
   const double top = TopMargin + TitleHeight;
   plan.content = { SideMargin, top, width - 2.0 * SideMargin, height - top - FooterHeight };
-  s.isLandscape ? PlanLandscape(s, plan) : PlanPortrait(s, plan);
+  plan.lines = GroupLegend(s.rows);
+  s.isLandscape                       ? PlanLandscape(s, plan)
+  : s.rows.size() >= RowsOfTableApart ? PlanApart(s, plan)
+                                      : PlanPortrait(s, plan);
 
-  plan.rowPitch = RowPitch;
-  if (plan.first.columns * RowsIn(plan.first.area.height, RowPitch) < s.rows.size())
-  {
-    plan.rowPitch = TightRowPitch;
-  }
-  plan.first.rows = RowsIn(plan.first.area.height, plan.rowPitch);
   plan.further.area = plan.content;
+  plan.further.area.height -= plan.isTableApart ? plan.provenance.height + Gap : 0.0;
   plan.further.columns = CountColumns(plan.content.width, s.rows);
-  plan.further.rows = RowsIn(plan.content.height, plan.rowPitch);
+  const TableArea & table = plan.isTableApart ? plan.further : plan.first;
+  const bool fits = table.columns * RowsIn(table.area.height, RowPitch) >= plan.lines.size();
+  plan.rowPitch = fits ? RowPitch : TightRowPitch;
+  plan.first.rows = RowsIn(plan.first.area.height, plan.rowPitch);
+  plan.further.rows = RowsIn(plan.further.area.height, plan.rowPitch);
   ScaleToPixels(plan);
   return plan;
 }

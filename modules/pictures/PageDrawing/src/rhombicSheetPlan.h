@@ -1,6 +1,7 @@
 #ifndef rhombicSheetPlan_h
 #define rhombicSheetPlan_h
 
+#include "rhombicLegend.h"
 #include "rhombicSheet.h"
 
 #include <utility>
@@ -23,10 +24,12 @@ struct SheetPlan
   SheetPlaces places;
   Rectangle content; ///< of all pages, between title and footer
   double rowPitch = 0.0;
-  double tableText = 0.0; ///< size of the table's text
-  TableArea first;        ///< on the first page
-  TableArea further;      ///< on the other pages
+  double tableText = 0.0;        ///< size of the table's text
+  TableArea first;               ///< on the first page
+  TableArea further;             ///< on the other pages
+  std::vector<LegendLine> lines; ///< of the table
   Rectangle provenance;
+  bool isTableApart = false;             ///< whether table and provenance are on further pages only
   std::vector<double> provenanceHeights; ///< of each line, which may be broken
   std::size_t provenanceRows = 0;        ///< lines in the first column; the others are in the second
 };
@@ -46,6 +49,7 @@ constexpr double ProvenanceSpace = 0.7;   ///< between lines
 constexpr double ProvenanceIndent = 22.0; ///< of values behind their names
 constexpr double NameColumn = 43.0;       ///< with the swatch
 constexpr double FigureColumn = 15.0;
+constexpr double RoomForLetters = 7.0; ///< at each edge of a picture
 } // namespace sheet
 
 /** A line of provenance as name and value. The name is empty when there is no colon. */
