@@ -1,3 +1,4 @@
+#include "rhombicColour.h"
 #include "rhombicLabelColours.h"
 
 #include <gtest/gtest.h>
@@ -67,6 +68,48 @@ TEST(LabelColours, OfLabelsThatTouchDiffer)
       different.insert(summary.label.colour);
     }
     EXPECT_EQ(different.size(), map.labels.size());
+  }
+}
+
+/** The distance in CIELAB (D65). */
+double
+DistanceInLab(const std::array<std::uint8_t, 3> & first, const std::array<std::uint8_t, 3> & second)
+{
+  const auto toLab = [](const std::array<std::uint8_t, 3> & colour) {
+    std::array<double, 3> rgb;
+    std::transform(
+      colour.begin(), colour.end(), rgb.begin(), [](std::uint8_t byte) { return rhombic::SRGBToLinear(byte / 255.0); });
+    const auto f = [](double t) { return t > 216.0 / 24389.0 ? std::cbrt(t) : (24389.0 / 27.0 * t + 16.0) / 116.0; };
+    const double x = f((0.4124564 * rgb[0] + 0.3575761 * rgb[1] + 0.1804375 * rgb[2]) / 0.95047);
+    const double y = f(0.2126729 * rgb[0] + 0.7151522 * rgb[1] + 0.0721750 * rgb[2]);
+    const double z = f((0.0193339 * rgb[0] + 0.1191920 * rgb[1] + 0.9503041 * rgb[2]) / 1.08883);
+    return std::array<double, 3>{ 116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z) };
+  };
+  const auto a = toLab(first);
+  const auto b = toLab(second);
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+TEST(LabelColours, OfUnknownLabelsThatTouchAreToldApart)
+{
+  std::vector<std::string> names{ "left thing", "right thing", "left other", "right other" };
+  for (int n = 0; n < 8; ++n)
+  {
+    names.push_back("unit " + std::string(1, static_cast<char>('a' + n)));
+  }
+  LabelMap map = MakeMap(names);
+  for (auto & summary : map.labels)
+  {
+    summary.label.colour = rhombic::AnatomicalColour(summary.label.name, summary.label.value);
+  }
+  rhombic::ColourLabels(map, LabelColours::Anatomy);
+  for (std::size_t a = 0; a < map.labels.size(); ++a)
+  {
+    for (std::size_t b = 0; b < a; ++b)
+    {
+      EXPECT_GE(DistanceInLab(map.labels[a].label.colour, map.labels[b].label.colour), 5.0)
+        << names[a] << ", " << names[b];
+    }
   }
 }
 

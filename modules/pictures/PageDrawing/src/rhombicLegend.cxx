@@ -9,12 +9,12 @@ namespace
 {
 
 constexpr std::size_t FewestRowsOfGroups = 10;
-constexpr double RowPitch = 1.4;           // this and the next two are multiples of the text's size
-constexpr double Indent = 1.3;             // of names behind their swatches
-constexpr double Gap = 0.8;                // between names and volumes
-constexpr double SmallestShare = 0.42;     // of the style's size
-constexpr double SmallestText = 9.0;       // pixels
-constexpr double SmallestShrinking = 0.75; // of a name that is too wide, as Drawing::Text() sets it
+constexpr double LegendPitch = 1.4;            // this and the next two are multiples of the text's size
+constexpr double LegendIndent = 1.3;           // of names behind their swatches
+constexpr double LegendGap = 0.8;              // between names and volumes
+constexpr double SmallestLegendShare = 0.42;   // of the style's size
+constexpr double SmallestLegendText = 9.0;     // pixels
+constexpr double SmallestNameShrinking = 0.75; // of a name that is too wide, as Drawing::Text() sets it
 
 LegendLayout
 FitText(const Drawing & drawing,
@@ -35,8 +35,8 @@ FitText(const Drawing & drawing,
       volumeWidth = std::max(volumeWidth, drawing.WidthOf(FormatVolume(*line.row->volume) + " ml", style) / style.size);
     }
   }
-  const double beside = Indent + (volumeWidth > 0.0 ? Gap + volumeWidth : 0.0);
-  const double smallest = std::min(style.size, std::max(SmallestShare * style.size, SmallestText));
+  const double beside = LegendIndent + (volumeWidth > 0.0 ? LegendGap + volumeWidth : 0.0);
+  const double smallest = std::min(style.size, std::max(SmallestLegendShare * style.size, SmallestLegendText));
   LegendLayout layout;
   layout.lines = lines;
   for (layout.size = style.size;; layout.size = std::max(0.97 * layout.size, smallest))
@@ -44,8 +44,8 @@ FitText(const Drawing & drawing,
     const double available = largestWidth - beside * layout.size;
     layout.nameWidth = std::max(1.0, std::min(nameWidth * layout.size, available));
     layout.volumeWidth = volumeWidth * layout.size;
-    layout.shortensNames = layout.nameWidth < SmallestShrinking * nameWidth * layout.size;
-    layout.shown = static_cast<std::size_t>(std::max(1.0, height / (RowPitch * layout.size)));
+    layout.shortensNames = layout.nameWidth < SmallestNameShrinking * nameWidth * layout.size;
+    layout.shown = static_cast<std::size_t>(std::max(1.0, height / (LegendPitch * layout.size)));
     if ((!layout.shortensNames && layout.shown >= lines.size()) || layout.size <= smallest)
     {
       break;
@@ -92,7 +92,8 @@ GroupLegend(const std::vector<LegendRow> & rows)
 double
 LegendLayout::Width() const
 {
-  return lines.empty() ? 0.0 : Indent * size + nameWidth + (volumeWidth > 0.0 ? Gap * size + volumeWidth : 0.0);
+  return lines.empty() ? 0.0
+                       : LegendIndent * size + nameWidth + (volumeWidth > 0.0 ? LegendGap * size + volumeWidth : 0.0);
 }
 
 LegendLayout
@@ -126,7 +127,7 @@ DrawLegend(Drawing & drawing, const LegendLayout & layout, const PicturePosition
   {
     const LegendLine & line = layout.lines[i];
     const double x = topLeft.x;
-    const double y = topLeft.y + (static_cast<double>(i) + 0.5) * RowPitch * layout.size;
+    const double y = topLeft.y + (static_cast<double>(i) + 0.5) * LegendPitch * layout.size;
     if (!isWhole && i + 1 == layout.shown)
     {
       const auto isRow = [](const LegendLine & other) { return other.row != nullptr; };
@@ -143,7 +144,7 @@ DrawLegend(Drawing & drawing, const LegendLayout & layout, const PicturePosition
       const Rectangle swatch{ x, y - 0.42 * layout.size, 0.84 * layout.size, 0.84 * layout.size };
       drawing.Fill(swatch.Inset(-0.07 * layout.size), style.halo, 0.2 * layout.size);
       drawing.Fill(swatch, { line.row->colour }, 0.15 * layout.size);
-      drawing.TextAbout(line.row->name, { x + Indent * layout.size, y }, name);
+      drawing.TextAbout(line.row->name, { x + LegendIndent * layout.size, y }, name);
       if (layout.volumeWidth > 0.0 && line.row->volume)
       {
         drawing.TextAbout(FormatVolume(*line.row->volume) + " ml", { x + layout.Width(), y }, volume);
