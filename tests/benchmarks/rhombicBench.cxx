@@ -157,11 +157,10 @@ Print(const std::vector<MemoryResult> & results)
 void
 Run(const Options & options)
 {
-  const auto isWanted = [&](const char * section) {
-    return std::any_of(options.what.begin(), options.what.end(), [section](const std::string & name) {
-      return name == section || name == "all";
-    });
+  const auto isNamed = [&](const char * section) {
+    return std::find(options.what.begin(), options.what.end(), section) != options.what.end();
   };
+  const auto isWanted = [&](const char * section) { return isNamed(section) || isNamed("all"); };
   const BenchInput input = MakeInput(options);
   const auto & size = input.volume->GetBufferedRegion().GetSize();
 
@@ -193,6 +192,11 @@ Run(const Options & options)
     if (isWanted("commands") && !options.scan.empty())
     {
       const auto more = MeasureCommands(options.scan, options.threshold, settings);
+      results.insert(results.end(), more.begin(), more.end());
+    }
+    if (isNamed("labels"))
+    {
+      const auto more = MeasureLabelCommands(options.scan, settings);
       results.insert(results.end(), more.begin(), more.end());
     }
     measure("extraction", MeasureExtraction);
@@ -249,8 +253,16 @@ main(int argc, char ** argv)
     ->capture_default_str();
   app.add_option("--what", options.what, "what to measure, separated by commas")
     ->delimiter(',')
-    ->check(CLI::IsMember(
-      { "extraction", "resampling", "pipeline", "memory", "floor", "neighbors", "reading", "commands", "all" }))
+    ->check(CLI::IsMember({ "extraction",
+                            "resampling",
+                            "pipeline",
+                            "memory",
+                            "floor",
+                            "neighbors",
+                            "reading",
+                            "commands",
+                            "labels",
+                            "all" }))
     ->capture_default_str();
   app.add_option("--repeat", options.repeats, "pairs whose median is reported")
     ->check(CLI::Range(1, 1000))

@@ -1,6 +1,8 @@
 #include "rhombicBenchCommands.h"
 
+#include "rhombicDrawnMaps.h"
 #include "rhombicFailure.h"
+#include "rhombicScanWriter.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
@@ -114,6 +116,56 @@ MeasurePeakMemory(const Command & command)
   return peak;
 }
 
+/** Compares two commands, ours with its number of threads; a folder of their outputs is removed. */
+BenchResult
+CompareCommands(const char * section,
+                const std::string & candidate,
+                const Command & ours,
+                const Command & bare,
+                const BenchSettings & settings)
+{
+  BenchResult result;
+  result.section = section;
+  result.candidate = candidate;
+  result.reference = "bare script";
+  result.threads = settings.threads;
+  result.details["MiB"] = std::round(MeasurePeakMemory(ours));
+  result.details["bare MiB"] = std::round(MeasurePeakMemory(bare));
+  result.times = TimePairs(
+    settings.repeats, [&] { return RunCommand(bare); }, [&] { return RunCommand(ours); });
+  return result;
+}
+
+/** The triangles of the STL files of a folder. */
+std::uintmax_t
+CountTriangles(const fs::path & folder)
+{
+  constexpr std::uintmax_t header = 84;
+  constexpr std::uintmax_t triangle = 50;
+  std::uintmax_t sum = 0;
+  for (const auto & entry : fs::directory_iterator(folder))
+  {
+    sum += entry.path().extension() == ".stl" ? (fs::file_size(entry) - header) / triangle : 0;
+  }
+  return sum;
+}
+
+/** An empty folder for the outputs of this process, and in it one for ours and one for the bare script. */
+fs::path
+MakeFolder()
+{
+  const fs::path folder = fs::temp_directory_path() / ("rhombic-bench-" + std::to_string(getpid()));
+  fs::create_directories(folder / "ours");
+  fs::create_directories(folder / "bare");
+  return folder;
+}
+
+fs::path
+FolderOfPrograms()
+{
+  return fs::read_symlink("/proc/self/exe").parent_path();
+}
+
 } // namespace
 
 std::vector<BenchResult>
@@ -123,33 +175,54 @@ MeasureCommands(const std::string & scan, double isovalue, const BenchSettings &
   {
     return {};
   }
-  const fs::path programs = fs::read_symlink("/proc/self/exe").parent_path();
-  const fs::path folder = fs::temp_directory_path() / ("rhombic-bench-" + std::to_string(getpid()));
-  fs::create_directory(folder);
+  const fs::path programs = FolderOfPrograms();
+  const fs::path folder = MakeFolder();
   const std::string threads = std::to_string(settings.threads);
   const std::string value = FormatExact(isovalue);
   const Command ours{ programs / "rhombic", "-q", "--threads", threads, "mesh", scan, "-t", value, "-o",
-                      folder / "a.stl" };
-  const Command bare{ programs / "rhombic-bare-script", scan, value, folder / "b.stl" };
-
-  BenchResult result;
-  result.section = "commands";
-  result.candidate = "rhombic mesh";
-  result.reference = "bare script";
-  result.threads = settings.threads;
-  result.details["MiB"] = std::round(MeasurePeakMemory(ours));
-  result.details["bare MiB"] = std::round(MeasurePeakMemory(bare));
-  result.times = TimePairs(
-    settings.repeats, [&] { return RunCommand(bare); }, [&] { return RunCommand(ours); });
-  constexpr double stlHeader = 84.0;
-  constexpr double stlTriangle = 50.0;
-  result.details["triangles"] =
-    std::llround((static_cast<double>(fs::file_size(folder / "a.stl")) - stlHeader) / stlTriangle);
-  result.details["bare triangles"] =
-    std::llround((static_cast<double>(fs::file_size(folder / "b.stl")) - stlHeader) / stlTriangle);
+                      folder / "ours/a.stl" };
+  const Command bare{ programs / "rhombic-bare-script", scan, value, folder / "bare/a.stl" };
+  BenchResult result = CompareCommands("commands", "rhombic mesh", ours, bare, settings);
+  result.details["triangles"] = CountTriangles(folder / "ours");
+  result.details["bare triangles"] = CountTriangles(folder / "bare");
   result.target = settings.threads > 1 ? std::optional<double>(1.15) : std::nullopt;
   fs::remove_all(folder);
   return { result };
+}
+
+std::vector<BenchResult>
+MeasureLabelCommands(const std::string & map, const BenchSettings & settings)
+{
+  const fs::path programs = FolderOfPrograms();
+  const fs::path folder = MakeFolder();
+  const Command start{ programs / "rhombic", "-q", "--threads", std::to_string(settings.threads) };
+  std::vector<BenchResult> results;
+  const auto compare = [&](const std::string & name, const fs::path & file, const Command & rest) {
+    Command ours = start;
+    ours.insert(ours.end(), rest.begin(), rest.end());
+    const Command bare{ programs / "rhombic-bare-label-script", file, folder / "bare" };
+    results.push_back(CompareCommands("labels", name, ours, bare, settings));
+  };
+  const auto meshAndSlice = [&](const std::string & name, const fs::path & file) {
+    compare("mesh " + name, file, { "mesh", file, "-o", folder / "ours/{name}.stl" });
+    results.back().details["triangles"] = CountTriangles(folder / "ours");
+    results.back().details["bare triangles"] = CountTriangles(folder / "bare");
+    compare("slice of " + name, file, { "render", file, "--slice", "axial", "-o", folder / "ours/slice.png" });
+  };
+  if (!map.empty())
+  {
+    meshAndSlice("map", map);
+  }
+  else
+  {
+    WriteScan(DrawThickOrgans(), folder / "organs.nrrd");
+    WriteScan(DrawNestedTissues(), folder / "tissues.nrrd");
+    meshAndSlice("organs", folder / "organs.nrrd");
+    const fs::path tissues = folder / "tissues.nrrd";
+    compare("page of tissues", tissues, { "render", tissues, "--sheet", "-o", folder / "ours/page.png" });
+  }
+  fs::remove_all(folder);
+  return results;
 }
 
 } // namespace rhombic
