@@ -1,9 +1,11 @@
 #include "rhombicBenchCommands.h"
 
-#include "rhombicDrawnMaps.h"
 #include "rhombicFailure.h"
 #include "rhombicScanWriter.h"
+#include "rhombicThickMaps.h"
 #include "rhombicWording.h"
+
+#include "itkMath.h"
 
 #include <algorithm>
 #include <chrono>
@@ -160,6 +162,33 @@ MakeFolder()
   return folder;
 }
 
+/** Three tissues, each inside the one before and the inner two with folds, as those of a brain: 207 x 256 x 215 voxels
+ * of 1 mm. */
+itk::Image<std::uint16_t, 3>::Pointer
+MakeTissues()
+{
+  constexpr int shells = 3;
+  constexpr double wavelength = 22.0;                        // mm
+  const auto depthBelow = [](int shell, const Vector3 & p) { // of the surface of the outermost, the second, the third
+    const double number = 2.0 * itk::Math::pi / wavelength;
+    const double folds = std::sin(number * p[0]) * std::cos(number * p[1]) +
+                         std::sin(number * p[1]) * std::cos(number * p[2]) +
+                         std::sin(number * p[2]) * std::cos(number * p[0]);
+    const double depth = 88.0 * (1.0 - std::hypot(p[0] / 88.0, p[1] / 112.0, p[2] / 92.0));
+    return depth - 9.0 * shell + 2.5 * shell * folds;
+  };
+  std::vector<ThickStructure> tissues;
+  for (int shell = 0; shell < shells; ++shell)
+  {
+    const auto depth = [=](const Vector3 & p) {
+      const double outer = depthBelow(shell, p);
+      return shell + 1 < shells ? std::min(outer, -depthBelow(shell + 1, p)) : outer;
+    };
+    tissues.push_back({ "tissue", depth, { { { -104.0, -128.0, -108.0 }, { 104.0, 128.0, 108.0 } } }, false, false });
+  }
+  return MakeThickMap(tissues, { { 1.0, 1.0, 1.0 }, { 207, 256, 215 } });
+}
+
 fs::path
 FolderOfPrograms()
 {
@@ -215,8 +244,8 @@ MeasureLabelCommands(const std::string & map, const BenchSettings & settings)
   }
   else
   {
-    WriteScan(DrawThickOrgans(), folder / "organs.nrrd");
-    WriteScan(DrawNestedTissues(), folder / "tissues.nrrd");
+    WriteScan(MakeThickMap(MakeThickStructures()), folder / "organs.nrrd");
+    WriteScan(MakeTissues(), folder / "tissues.nrrd");
     meshAndSlice("organs", folder / "organs.nrrd");
     const fs::path tissues = folder / "tissues.nrrd";
     compare("page of tissues", tissues, { "render", tissues, "--sheet", "-o", folder / "ours/page.png" });

@@ -17,8 +17,9 @@ std::vector<BenchResult>
 MeasureCommands(const std::string & scan, double isovalue, const BenchSettings & settings);
 
 /** Compares `rhombic mesh` and `rhombic render` on a label map with rhombic-bare-label-script
- * (rhombicBareLabelScript.cxx), as MeasureCommands() does. An empty path stands for maps that this function makes:
- * meshes and a slice of DrawThickOrgans(), a page of DrawNestedTissues(). Throws Failure if a program fails. */
+ * (rhombicBareLabelScript.cxx), as MeasureCommands() does. An empty path stands for maps that this function makes: mesh
+ * and slice of eleven structures on thick slices (MakeThickStructures()), page of three nested tissues, the inner two
+ * with folds. Throws Failure if a program fails. */
 std::vector<BenchResult>
 MeasureLabelCommands(const std::string & map, const BenchSettings & settings);
 
