@@ -6,6 +6,7 @@
 #include "detail/itkPositionArithmetic.h"
 #include "itkImageFileWriter.h"
 #include "itkLabelMapFileReader.h"
+#include "itkNiftiImageIO.h"
 #include "itkShrinkImageFilter.h"
 #include "itkTriangleSurfaceDistance.h"
 #include "itkTriangleSurfaceMeasures.h"
@@ -53,18 +54,60 @@ LabelsOf(const MapImage::Pointer & map)
   return SummarizeLabels(scan, {});
 }
 
+/** The mean turn in degrees at the corners of the curves where walls of three labels or more meet. */
+double
+FindTurnOfCurves(const itk::LabelWalls & walls)
+{
+  std::map<std::array<std::uint32_t, 2>, int> edges; // and their triangles
+  for (const auto & triangle : walls.GetTriangles())
+  {
+    for (unsigned int corner = 0; corner < 3; ++corner)
+    {
+      const auto [low, high] = std::minmax(triangle[corner], triangle[(corner + 1) % 3]);
+      ++edges[{ low, high }];
+    }
+  }
+  std::map<std::uint32_t, std::vector<std::uint32_t>> neighbours;
+  for (const auto & [edge, triangles] : edges)
+  {
+    if (triangles > 2)
+    {
+      neighbours[edge[0]].push_back(edge[1]);
+      neighbours[edge[1]].push_back(edge[0]);
+    }
+  }
+  double sum = 0.0;
+  double corners = 0.0;
+  for (const auto & [point, beside] : neighbours)
+  {
+    if (beside.size() == 2)
+    {
+      const auto at = [&walls](std::uint32_t id) { return itk::ToPosition(walls.GetPoints()[id]); };
+      const Vector3 before = Subtract(at(point), at(beside[0]));
+      const Vector3 after = Subtract(at(beside[1]), at(point));
+      sum += std::atan2(Length(Cross(before, after)), Dot(before, after)) * 180.0 / std::acos(-1.0);
+      ++corners;
+    }
+  }
+  return sum / corners;
+}
+
+/** \param pieces if not null, is set to the number of pieces of each label in the map */
 Surfaces
-MakeRhombicSurfaces(MapImage * image)
+MakeRhombicSurfaces(MapImage * image, std::vector<std::size_t> * pieces = nullptr)
 {
   LabelMap map;
   map.scan.image = MapImage::Pointer(image);
   map.labels = LabelsOf(image);
   LabelMesh mesh = LabelsToWalls(map, {}, {});
   ExtractSurfaces(mesh);
+  std::cout << "turn of the curves where walls meet: " << Fixed(FindTurnOfCurves(*mesh.walls.front()), 1)
+            << " degrees a corner\n";
   Surfaces surfaces;
   for (const LabelSurface & label : mesh.labels)
   {
     surfaces.push_back(const_cast<Surface *>(label.scene.surface.GetPointer()));
+    pieces != nullptr ? pieces->push_back(label.pieces) : void();
   }
   return surfaces;
 }
@@ -176,6 +219,7 @@ Measure(const std::string & maker,
         const Surfaces & surfaces,
         const std::vector<ThickStructure> & structures,
         const MapImage & map,
+        const std::vector<std::size_t> & pieces,
         TextTable & table)
 {
   const auto & spacing = map.GetSpacing();
@@ -199,7 +243,7 @@ Measure(const std::string & maker,
       row.insert(row.end(), 3, "-");
     }
     row.push_back(Fixed(100.0 * (ComputeTriangleSurfaceVolume(surface) / volumes[n + 1] - 1.0), 3));
-    row.push_back(std::to_string(topology.components));
+    row.push_back(std::to_string(topology.components) + " of " + std::to_string(pieces[n]));
     row.push_back(std::to_string(topology.genus));
     row.push_back(std::to_string(surface.GetNumberOfTriangles()));
     table.Add(row);
@@ -291,6 +335,7 @@ MeasureDrawn(const Options & options)
   {
     const auto writer = itk::ImageFileWriter<MapImage>::New();
     writer->SetInput(map);
+    writer->SetImageIO(itk::NiftiImageIO::New());
     writer->SetFileName(options.output);
     writer->UseCompressionOn();
     writer->Update();
@@ -299,10 +344,11 @@ MeasureDrawn(const Options & options)
   std::iota(values.begin(), values.end(), 1);
   TextTable table(
     { "label", "by", "bending", "mean mm", "95 % mm", "degrees", "volume %", "pieces", "holes", "triangles" });
+  std::vector<std::size_t> pieces;
   const auto start = std::chrono::steady_clock::now();
-  Measure("Rhombic", MakeRhombicSurfaces(map), structures, *map, table);
+  Measure("Rhombic", MakeRhombicSurfaces(map, &pieces), structures, *map, pieces, table);
   const auto middle = std::chrono::steady_clock::now();
-  Measure("VTK", MakeVTKSurfaces(*map, values), structures, *map, table);
+  Measure("VTK", MakeVTKSurfaces(*map, values), structures, *map, pieces, table);
   const auto end = std::chrono::steady_clock::now();
   table.Print(std::cout);
   std::cout << "seconds with measures: Rhombic " << Fixed(std::chrono::duration<double>(middle - start).count(), 1)

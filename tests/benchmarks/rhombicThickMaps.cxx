@@ -191,9 +191,9 @@ MakeThickStructures()
     Ellipsoid("kidney_left", { 62.0, 62.0, -20.0 }, { 25.0, 30.0, 56.0 }, true),
     Ellipsoid("kidney_right", { -62.0, 64.0, -40.0 }, { 24.0, 29.0, 54.0 }, true),
     Tube("aorta", MakeWindingLine(12.0, 92.0, 360.0, 4.0, 300.0), 10.0, true, false),
-    Tube("vessel_1", MakeWindingLine(-112.0, 60.0, 240.0, 5.0, 220.0), 0.5 * Pixel, true, true),
-    Tube("vessel_2", MakeWindingLine(-112.0, 85.0, 240.0, 6.0, 180.0), Pixel, true, true),
-    Tube("vessel_3", MakeWindingLine(-112.0, 110.0, 240.0, 8.0, 160.0), 1.5 * Pixel, true, true),
+    Tube("vessel_1", MakeWindingLine(-112.0, 60.0, 240.0, 3.0, 220.0), 0.71 * Pixel, true, true),
+    Tube("vessel_2", MakeWindingLine(-112.0, 85.0, 240.0, 3.0, 180.0), 1.0 * Pixel, true, true),
+    Tube("vessel_3", MakeWindingLine(-112.0, 110.0, 240.0, 4.0, 160.0), 1.5 * Pixel, true, true),
     Ellipsoid("stomach", { 70.0, -60.0, 40.0 }, { 45.0, 38.0, 55.0 }, false),
     Ellipsoid("pancreas", { 60.0, -40.0, -30.0 }, { 55.0, 18.0, 28.0 }, false),
     Tube("duodenum", { { 10.0, -50.0, -70.0 }, { 28.0, -52.0, -30.0 }, { 40.0, -60.0, 0.0 } }, 13.0, false, false)

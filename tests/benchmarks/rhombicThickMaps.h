@@ -28,7 +28,8 @@ struct ThickStructure
 };
 
 /** Eleven structures around the origin in 300 x 250 x 445 mm: liver, spleen, two kidneys and aorta, vessels 1, 2 and 3
- * pixels thick, and stomach, pancreas and duodenum, which touch. The label of structure n is n + 1. */
+ * pixels thick (the first so thick that each slice has a pixel of it), and stomach, pancreas and duodenum, which touch.
+ * The label of structure n is n + 1. */
 std::vector<ThickStructure>
 MakeThickStructures();
 
