@@ -16,12 +16,11 @@ namespace itk
  * it is least. Points where curves meet or walls touch stay.
  *
  * No point moves farther than maximumMove from where it is at the call, or out of the ellipsoid of halfAxes. Where
- * triangles would turn by 80 degrees or more, lose more than nine tenths of their area, or meet others elsewhere than at
- * shared corners and sides, points move less, and those around them a little less. The report is of all moves
- * together. So the walls of each label
- * stay a closed, oriented manifold without crossings, if they were. Labels of which all points are as far as they may
- * go can have another volume. Throws ExceptionObject as Verify() of the settings does. The same bytes for any
- * number of threads.
+ * triangles would turn by 155 degrees or more, lose more than 99 hundredths of their area, or meet others elsewhere
+ * than at shared corners and sides, points move less, and those around them a little less. The report is of all moves
+ * together. So the walls of each label stay a closed, oriented manifold without crossings, if they were. Labels of
+ * which all points are as far as they may go can have another volume. Throws ExceptionObject as Verify() of the settings
+ * does. The same bytes for any number of threads.
  *
  * \param volumes by label in mm^3, such as LabelsToFCCFilter::GetVoxelVolumes(); labels without a volume, or with 0,
  * keep their own

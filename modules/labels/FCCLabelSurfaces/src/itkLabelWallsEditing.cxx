@@ -15,8 +15,9 @@ namespace
 {
 
 constexpr unsigned int MostCorrections = 16;
-constexpr double SmallestLayer = 1e-3;  // to correct a volume by, of the largest move
-constexpr double ShareForVolumes = 0.1; // of the largest error of simplification
+constexpr double SmallestLayer = 1e-3;             // to correct a volume by, of the largest move
+constexpr double ShareForVolumes = 0.1;            // of the largest error of simplification
+constexpr TriangleLimits WallLimits{ -0.9, 0.01 }; // the sides of a pit turn by much more than a right angle
 
 /** Moves walls along their normals until each label has its volume, or points are as far as they may go. Fixed points
  * stay. This is one stage of the progress. */
@@ -82,7 +83,7 @@ RelaxLabelWalls(LabelWalls & walls,
   }
   const TrianglesOfPoints fans(walls);
   const PointStrata strata = FindStrata(walls, fans);
-  BoundedMoves moves(walls, fans, MoveBound(settings));
+  BoundedMoves moves(walls, fans, MoveBound(settings), WallLimits);
   SmoothSheets(walls, fans, strata, settings.iterations, moves, progress, 0.5);
   RestoreVolumes(walls, wanted, fans, strata, moves, progress, 0.8);
   moves.PutBackMeeting(progress, 1.0);

@@ -95,19 +95,22 @@ EstimateMemory(const LabelImage & labels, TFilter & filter, double density)
 }
 
 /** How the walls of a label map are smoothed: no point leaves the ellipsoid around it whose half axes are the edges of
- * a voxel, as far as a border that is drawn by hand may be off. */
+ * a voxel, as far as a border that is drawn by hand may be off. The thicker slices are beside a pixel, the longer are
+ * the waves that are noise. */
 itk::TriangleSurfaceSmoothingSettings
 RelaxationByVoxels(const itk::ImageBase<3> & grid)
 {
   itk::TriangleSurfaceSmoothingSettings settings;
-  settings.iterations = 40;
   auto & edges = settings.halfAxes.emplace();
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
     const auto step = StepAlong(grid, axis);
     edges[axis] = { step[0], step[1], step[2] };
-    settings.maximumMove = std::max(settings.maximumMove, grid.GetSpacing()[axis]);
   }
+  const auto & spacing = grid.GetSpacing();
+  const auto [shortest, longest] = std::minmax({ spacing[0], spacing[1], spacing[2] });
+  settings.iterations = static_cast<unsigned int>(std::min(40.0, 20.0 * std::sqrt(longest / shortest)));
+  settings.maximumMove = longest;
   return settings;
 }
 
@@ -341,7 +344,8 @@ RefineWalls(LabelMesh & mesh, const SurfaceFinish & finish, double spacing, cons
   for (const auto & layer : mesh.walls)
   {
     itk::LabelWalls & walls = *layer;
-    const RefinementFunctions functions{ [&walls](auto &, const auto & settings, const auto & report) {
+    const RefinementFunctions functions{ [&walls](auto &, auto settings, const auto & report) {
+                                          settings.iterations = 80; // as far as the largest move allows
                                           return itk::RelaxLabelWalls(walls, settings, {}, report);
                                         },
                                          [&walls](auto &, const auto & settings, const auto & report) {

@@ -12,9 +12,6 @@ namespace itk
 namespace
 {
 
-constexpr double SmallestCosineOfTurn = 0.1736; // cosine of 80 degrees
-constexpr double SmallestShareOfArea = 0.1;
-
 /** The triangles' normals at a point weighted by their angles there; zero if no triangle has an area. */
 PositionType
 SumNormals(const TriangleSurface::PointsContainer & points, const TrianglesOfPoints & fans, SizeValueType point)
@@ -49,10 +46,14 @@ MoveBound::MoveBound(const TriangleSurfaceSmoothingSettings & settings)
   }
 }
 
-BoundedMoves::BoundedMoves(TriangleSurface & surface, const TrianglesOfPoints & fans, const MoveBound & bound)
+BoundedMoves::BoundedMoves(TriangleSurface & surface,
+                           const TrianglesOfPoints & fans,
+                           const MoveBound & bound,
+                           const TriangleLimits & limits)
   : m_Surface(surface)
   , m_Fans(fans)
   , m_Bound(bound)
+  , m_Limits(limits)
   , m_Start(surface.GetPoints())
   , m_StartAreas(surface.GetNumberOfTriangles())
   , m_Next(surface.GetPoints())
@@ -82,12 +83,10 @@ BoundedMoves::IsSpoilt(std::uint32_t triangle) const
 {
   const PositionType & before = m_StartAreas[triangle];
   const PositionType after = AreaVector(CornersOf(m_Next, std::as_const(m_Surface).GetTriangles()[triangle]));
-  const double cosine = Dot(before, after);
-  const double squareBefore = Dot(before, before);
-  const double squareAfter = Dot(after, after);
-  return !(cosine >= 0.0 &&
-           cosine * cosine >= SmallestCosineOfTurn * SmallestCosineOfTurn * squareBefore * squareAfter &&
-           squareAfter >= SmallestShareOfArea * SmallestShareOfArea * squareBefore);
+  const double lengthBefore = Length(before);
+  const double lengthAfter = Length(after);
+  return !(Dot(before, after) >= m_Limits.leastCosineOfTurn * lengthBefore * lengthAfter &&
+           lengthAfter >= m_Limits.leastShareOfArea * lengthBefore);
 }
 
 std::vector<std::uint32_t>

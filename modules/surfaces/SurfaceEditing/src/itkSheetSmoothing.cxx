@@ -9,7 +9,7 @@ namespace
 {
 
 constexpr SizeValueType Block = 4096;
-constexpr double PassBand = 0.003; // of the eigenvalues of the umbrella operator, [0, 2]
+constexpr double PassBand = 0.006; // of the eigenvalues of the umbrella operator, [0, 2]
 constexpr unsigned int NormalSteps = 4;
 
 /** A number or a vector for each point. */

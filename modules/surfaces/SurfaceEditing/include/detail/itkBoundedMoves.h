@@ -48,20 +48,29 @@ private:
   double m_Least;
 };
 
+/** How far a triangle may turn and shrink when its points move. */
+struct TriangleLimits
+{
+  double leastCosineOfTurn = 0.1736; ///< that of 80 degrees
+  double leastShareOfArea = 0.1;
+};
+
 /** \class BoundedMoves
  * \brief Moves the points of a surface in steps, none out of a bound around its start.
  *
- * The points of a triangle that would turn by 80 degrees or more since the start, or lose more than nine tenths of its
- * area, stay where they are in that step. The same for any number of threads. */
+ * The points of a triangle that would turn or shrink more than its limits since the start stay where they are in that
+ * step. The same for any number of threads. */
 class BoundedMoves
 {
 public:
   using Points = TriangleSurface::PointsContainer;
   using PointType = TriangleSurface::PointType;
 
-  /** \param fans the triangles at the points of the surface; both must live longer
-   */
-  BoundedMoves(TriangleSurface & surface, const TrianglesOfPoints & fans, const MoveBound & bound);
+  /** \param fans the triangles at the points of the surface; both must live longer */
+  BoundedMoves(TriangleSurface & surface,
+               const TrianglesOfPoints & fans,
+               const MoveBound & bound,
+               const TriangleLimits & limits = {});
 
   const MoveBound &
   GetBound() const
@@ -146,6 +155,7 @@ private:
   TriangleSurface & m_Surface;
   const TrianglesOfPoints & m_Fans;
   const MoveBound m_Bound;
+  const TriangleLimits m_Limits;
   const Points m_Start;
   std::vector<PositionType> m_StartAreas; ///< of the triangles, see AreaVector()
   Points m_Next;
