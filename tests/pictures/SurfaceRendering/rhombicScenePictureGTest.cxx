@@ -363,8 +363,10 @@ TEST_F(ScenePicture, TranslucentSpheresAreBlendedInOrderAlongEveryRay)
         if (across < 1.0)
         {
           const double cosine = std::sqrt(1.0 - across * across);
+          const double exponent = std::max(2.0, 0.5 * (std::sqrt(16.0 / ball.opacity - 7.0) - 3.0));
+          const double facing = std::max(0.5 * ball.opacity, 1.2 * ball.opacity - 0.2);
           hits.push_back({ ball.centre[1] - ball.radius * cosine,
-                           1.0 - std::pow(1.0 - ball.opacity, 1.0 / cosine),
+                           facing + (1.0 - facing) * std::pow(1.0 - cosine, exponent),
                            ball.lit.At(x, y) });
         }
       }

@@ -16,14 +16,14 @@ class vtkRhombicOpaquePass;
  * vtkVolumetricPass afterwards, and it lies over the surface.
  *
  * With lights of the renderer, surfaces are blended as VTK blends them. With the lights that go with the camera, only
- * the near walls of surfaces are drawn, and opacity follows the angle: half of an actor's opacity o where the wall
- * faces the viewer, so that what is inside is clear, and 1 at the outline, so that the shape is seen. It is Schlick's
- * form of Fresnel's reflection (An inexpensive BRDF model for physically-based rendering, Computer Graphics Forum 13,
- * 1994),
+ * the near walls of surfaces are drawn, and opacity follows the angle between wall and viewer: it is low where the wall
+ * faces the viewer, so that what is inside is clear, and 1 at the outline, so that the shape is seen. With an actor's
+ * opacity o, it is Schlick's form of Fresnel's reflection (An inexpensive BRDF model for physically-based rendering,
+ * Computer Graphics Forum 13, 1994),
  *
- *     o / 2 + (1 - o / 2) (1 - cos angle)^p, p = (sqrt(16 / o - 7) - 3) / 2
+ *     f + (1 - f) (1 - cos angle)^p, f = max(o / 2, 1.2 o - 0.2), p = max(2, (sqrt(16 / o - 7) - 3) / 2)
  *
- * whose exponent p, 5 for glass, is such that the mean over the picture of a sphere is o. An opacity of 1 stays 1.
+ * whose exponent p, 5 for glass, is such that the mean over the picture of a ball is o.
  *
  * @sa vtkRhombicOpaquePass vtkRhombicSurfacePass
  */
