@@ -114,7 +114,7 @@ AddPlanes(const RenderScanSettings & settings, const PictureScene & source, Scen
 /** A slice through a scene, which has no picture yet. */
 struct SceneSlice
 {
-  SheetPicture picture;     ///< outlines in the colours of lines, caption and position
+  SheetPicture picture;     ///< outlines in the colours of lines, background, caption and position
   std::vector<bool> isSeen; ///< whether the slice cuts a surface, in the order of the scene
 };
 
@@ -126,7 +126,7 @@ CutScene(const PictureScene & scene,
          const SliceSettings & settings);
 
 /** Draws a slice between margins in a picture of so many pixels: the scan's greys, or without a scan the areas in the
- * surfaces in their colours, on black; and moves the outlines there. */
+ * surfaces in their colours, on the background; and moves the outlines there. */
 void
 DrawSceneSlice(const PictureScene & scene,
                const SliceSettings & settings,

@@ -178,6 +178,31 @@ LargestMargins(const std::vector<Annotations> & annotations,
   return largest;
 }
 
+/** Settings of which all pictures are higher, if they would be less than a quarter as high as wide and their height is
+ * free: the letters of thin scenes stay apart. */
+RenderSettings
+Heightened(RenderSettings render, std::vector<Projection> planned, const std::vector<Annotations> & annotations)
+{
+  constexpr double thinnest = 0.25;
+  const auto isThin = [](const Projection & picture) { return picture.height < thinnest * picture.width; };
+  if (render.height > 0 || !std::all_of(planned.begin(), planned.end(), isThin))
+  {
+    return render;
+  }
+  for (const Projection & picture : planned)
+  {
+    render.width = std::max(render.width, picture.width);
+  }
+  render.height = static_cast<int>(std::lround(thinnest * render.width));
+  for (Projection & picture : planned)
+  {
+    picture.width = render.width;
+    picture.height = render.height;
+  }
+  render.margins = LargestMargins(annotations, planned, { 0.0, 0.0, 0.0, 0.0 });
+  return render;
+}
+
 /** Fits the settings to a scene: its extent, and margins for the annotations of each view. The margins depend on the
  * size of the pictures; a size that is not given depends on the margins. */
 RenderSettings
@@ -238,7 +263,7 @@ FitToScene(const RenderScanSettings & settings,
     }
     render.margins = LargestMargins(annotations, planned, none);
   }
-  return render;
+  return Heightened(render, planned, annotations);
 }
 
 /** Gives each view's annotations the legend of the surfaces that are seen in it; all frames of a turntable have the
@@ -364,7 +389,7 @@ DrawSlicePicture(const RenderScanSettings & settings,
                  double aspect,
                  int longerSide)
 {
-  Annotations annotations = AnnotationsOf(settings, scene, { { 0.0, 0.0, 0.0 } });
+  Annotations annotations = AnnotationsOf(settings, scene, slice.picture.background);
   annotations.title += (annotations.title.empty() ? "" : ", ") + slice.picture.caption + ", " + slice.picture.position;
   annotations.legend = legend;
   const SliceLayout layout = FitSlice(given, aspect, annotations, slice.picture.projection.frame, longerSide);
@@ -420,6 +445,7 @@ DrawLightbox(const RenderScanSettings & settings, const PictureScene & scene, co
   }
   Annotations legend;
   legend.letters = legend.scaleBar = legend.figure = false;
+  legend.background = slices.front().picture.background;
   legend.legend = LegendOfOutlines(settings, scene, isSeen);
   const auto legendWidth = [&legend](double width, double height) {
     const int whole = static_cast<int>(width);
@@ -446,7 +472,7 @@ DrawLightbox(const RenderScanSettings & settings, const PictureScene & scene, co
     pictures.push_back(DrawSlicePicture(tile, scene, slice, {}, tile.render, aspect, LongerSideOfTile));
     tile.annotations.title.clear(); // the first slice has it
   }
-  const Picture box = MakeLightbox(pictures, gap, { 0.0, 0.0, 0.0 }, columns, width, height);
+  const Picture box = MakeLightbox(pictures, gap, legend.background.colour, columns, width, height);
   const int whole =
     settings.render.width > 0 ? settings.render.width : box.width + legendWidth(box.width / 0.8, box.height);
   return legend.legend.empty() ? box : WithLegend(box, legend, whole);

@@ -13,7 +13,8 @@ namespace rhombic
 namespace
 {
 
-constexpr double PixelsOfCap = 1500.0; // along the longer side of the scene
+constexpr double PixelsOfCap = 1500.0;    // along the longer side of the scene
+constexpr std::uint8_t GreyOfNoScan = 56; // behind the areas of slices without a scan
 
 /** A slice of the scene's box in a plane, of about PixelsOfCap pixels. */
 Projection
@@ -82,7 +83,7 @@ ClearWhereCut(const Projection & projection, const std::vector<ClipPlane> & cuts
 Picture
 FillAreas(const PictureScene & scene, const Projection & projection)
 {
-  constexpr std::uint8_t grey = 56;
+  constexpr std::uint8_t grey = GreyOfNoScan;
   constexpr double tint = 0.55;
   std::vector<std::size_t> order(scene.surfaces.size());
   std::iota(order.begin(), order.end(), 0);
@@ -184,6 +185,8 @@ CutScene(const PictureScene & scene,
   SceneSlice slice;
   SheetPicture & picture = slice.picture;
   picture.projection = SliceThrough(point, scene.box, FrameOf(request.plane, settings.convention));
+  const double grey = scene.scan ? 0.0 : GreyOfNoScan / 255.0;
+  picture.background = { { grey, grey, grey } };
   for (const SceneSurface & surface : scene.surfaces)
   {
     std::vector<Outline> outlines =
