@@ -417,7 +417,7 @@ DrawSliceWithOutlines(const RenderScanSettings & settings, const PictureScene & 
 Picture
 WithLegend(const Picture & picture, const Annotations & legend, int width)
 {
-  Picture wider(width, picture.height);
+  Picture wider(std::max(width, picture.width), picture.height);
   for (int y = 0; y < picture.height; ++y)
   {
     std::copy_n(picture.At(0, y), 3 * picture.width, wider.pixels.begin() + (wider.At(0, y) - wider.pixels.data()));
