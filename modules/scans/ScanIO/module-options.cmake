@@ -5,7 +5,7 @@ file(STRINGS "${colour_table}" lines REGEX "^[^#]")
 list(POP_FRONT lines) # the names of the columns
 set(rules "")
 foreach(line IN LISTS lines)
-  if(NOT line MATCHES "^([a-z0-9.]+)\t([a-z0-9.]*)\t([0-9]+)\t([0-9]+)\t([0-9]+)\t([a-z]+)$")
+  if(NOT line MATCHES "^([a-z0-9.]+)\t([a-z0-9.]*)\t([0-9]+)\t([0-9]+)\t([0-9]+)\t([a-z ]+)$")
     message(FATAL_ERROR "${colour_table}: this line is no word, second word, red, green, blue, group: ${line}")
   endif()
   string(APPEND rules "  { \"${CMAKE_MATCH_1}\", \"${CMAKE_MATCH_2}\", "

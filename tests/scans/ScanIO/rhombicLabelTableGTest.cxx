@@ -695,7 +695,7 @@ TEST(AnatomicalColours, NamesHaveGroups)
     { "lung_upper_lobe_left", "organs" },
     { "liver_tumor", "findings" },
     { "skin", "tissues" },
-    { "Left-Hippocampus", "nerves" },
+    { "Left-Hippocampus", "brain and nerves" },
     { "thing", "" },
   };
   for (const auto & [name, group] : groups)

@@ -48,8 +48,8 @@ struct Annotations
 Margins
 MarginsOf(const Annotations & annotations, int width, int height, const ViewFrame & frame);
 
-/** The colour of a line over a dark picture: of lightness 65 or more (CIE L*, D65) and the same hue. Darker colours are
- * made brighter, then mixed with white. */
+/** The colour of a line over a dark picture: of lightness 65 or more (CIE L*, D65), with the same hue and, as far as
+ * sRGB has it, the same chroma. */
 Colour
 LineColourOnDark(const Colour & colour);
 

@@ -211,6 +211,61 @@ DrawFootnote(Drawing & drawing, const Rectangle & place, const std::string & foo
   }
 }
 
+/** Linear components of sRGB to and from CIE XYZ, relative to the white D65. */
+constexpr double XYZOfRGB[3][3] = { { 0.4338892, 0.3762261, 0.1898847 },
+                                    { 0.2126729, 0.7151522, 0.0721750 },
+                                    { 0.0177567, 0.1094713, 0.8727720 } };
+constexpr double RGBOfXYZ[3][3] = { { 3.0799327, -1.5371500, -0.5427816 },
+                                    { -0.9212350, 1.8759900, 0.0452442 },
+                                    { 0.0528898, -0.2040261, 1.1511366 } };
+
+std::array<double, 3>
+Multiply(const double (&matrix)[3][3], const std::array<double, 3> & vector)
+{
+  std::array<double, 3> product{};
+  for (std::size_t row = 0; row < 3; ++row)
+  {
+    product[row] = matrix[row][0] * vector[0] + matrix[row][1] * vector[1] + matrix[row][2] * vector[2];
+  }
+  return product;
+}
+
+/** CIE L*, a* and b* of an sRGB colour. */
+std::array<double, 3>
+ToLab(const Colour & colour)
+{
+  std::array<double, 3> xyz =
+    Multiply(XYZOfRGB, { SRGBToLinear(colour[0]), SRGBToLinear(colour[1]), SRGBToLinear(colour[2]) });
+  for (double & component : xyz)
+  {
+    component = component > 216.0 / 24389.0 ? std::cbrt(component) : (24389.0 / 27.0 * component + 16.0) / 116.0;
+  }
+  return { 116.0 * xyz[1] - 16.0, 500.0 * (xyz[0] - xyz[1]), 200.0 * (xyz[1] - xyz[2]) };
+}
+
+/** Linear components, which may be out of range. */
+Colour
+FromLab(const std::array<double, 3> & lab)
+{
+  const double y = (lab[0] + 16.0) / 116.0;
+  std::array<double, 3> xyz{ y + lab[1] / 500.0, y, y - lab[2] / 200.0 };
+  for (double & component : xyz)
+  {
+    component =
+      component > 6.0 / 29.0 ? component * component * component : (116.0 * component - 16.0) * 27.0 / 24389.0;
+  }
+  return Multiply(RGBOfXYZ, xyz);
+}
+
+bool
+IsInSRGB(const Colour & linear)
+{
+  constexpr double rounding = 1e-4;
+  return std::all_of(linear.begin(), linear.end(), [](double component) {
+    return component >= -rounding && component <= 1.0 + rounding;
+  });
+}
+
 /** Fills the columns from \a first on with a colour. */
 void
 EraseColumns(int first, const Ink & ink, Picture & picture)
@@ -240,24 +295,27 @@ MarginsOf(const Annotations & annotations, int width, int height, const ViewFram
 Colour
 LineColourOnDark(const Colour & colour)
 {
-  constexpr double least = 0.3416; // luminance of L* 65.1: components are rounded to bytes
-  const auto luminanceOf = [](const Colour & linear) {
-    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]; // ITU-R BT.709
-  };
-  Colour linear{ SRGBToLinear(colour[0]), SRGBToLinear(colour[1]), SRGBToLinear(colour[2]) };
-  const double luminance = luminanceOf(linear);
-  if (luminance >= least)
+  constexpr double least = 65.1; // L*: components are rounded to bytes later
+  constexpr int halvings = 20;
+  const std::array<double, 3> lab = ToLab(colour);
+  if (lab[0] >= least)
   {
     return colour;
   }
-  const double largest = *std::max_element(linear.begin(), linear.end());
-  const double gain = luminance > 0.0 ? std::min(least / luminance, 1.0 / largest) : 1.0;
-  const double white = std::max(0.0, (least - gain * luminance) / (1.0 - gain * luminance));
-  for (double & component : linear)
+  double share = 1.0; // of the chroma, as much as there is in sRGB
+  double none = 0.0;
+  for (int n = 0; n < halvings && !IsInSRGB(FromLab({ least, share * lab[1], share * lab[2] })); ++n)
   {
-    component = LinearToSRGB(gain * component + white * (1.0 - gain * component));
+    const double middle = 0.5 * (none + share);
+    (IsInSRGB(FromLab({ least, middle * lab[1], middle * lab[2] })) ? none : share) = middle;
   }
-  return linear;
+  Colour line = FromLab({ least, share * lab[1], share * lab[2] });
+  if (!IsInSRGB(line))
+  {
+    line = FromLab({ least, none * lab[1], none * lab[2] });
+  }
+  std::transform(line.begin(), line.end(), line.begin(), LinearToSRGB);
+  return line;
 }
 
 void

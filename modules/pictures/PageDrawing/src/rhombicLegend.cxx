@@ -14,7 +14,7 @@ constexpr double LegendIndent = 1.3;           // of names behind their swatches
 constexpr double LegendGap = 0.8;              // between names and volumes
 constexpr double SmallestLegendShare = 0.42;   // of the style's size
 constexpr double SmallestLegendText = 9.0;     // pixels
-constexpr double SmallestNameShrinking = 0.75; // of a name that is too wide, as Drawing::Text() sets it
+constexpr double SmallestNameShrinking = 0.78; // of a name that is too wide: Drawing::Text() shortens it below 0.75
 
 LegendLayout
 FitText(const Drawing & drawing,

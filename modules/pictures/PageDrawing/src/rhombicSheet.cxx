@@ -159,13 +159,33 @@ private:
     m_Drawing.Text(picture.position, { place.left + used, baseline }, style);
   }
 
+  /** The rows of even columns, or some more, so that no column ends with a heading. */
+  std::size_t
+  RowsOfColumns(std::size_t begin, std::size_t end, const TableArea & table) const
+  {
+    const std::size_t even = (end - begin + table.columns - 1) / table.columns;
+    for (std::size_t rows = even; rows > 0 && rows <= table.rows; ++rows)
+    {
+      bool isGood = true;
+      for (std::size_t next = begin + rows; next < end; next += rows)
+      {
+        isGood = isGood && m_Plan.lines[next - 1].row != nullptr;
+      }
+      if (isGood)
+      {
+        return rows;
+      }
+    }
+    return even;
+  }
+
   /** Draws rows from \a begin in the columns of an area. Returns the first row that is left. */
   std::size_t
   DrawTable(std::size_t begin, const TableArea & table)
   {
     const std::size_t end = std::min(m_Plan.lines.size(), begin + table.columns * table.rows);
     const std::size_t columns = table.columns;
-    const std::size_t rows = (end - begin + columns - 1) / columns;
+    const std::size_t rows = RowsOfColumns(begin, end, table);
     const double gap = 2.0 * Millimetres(sheet::Gap);
     const double width = (table.area.width - gap * static_cast<double>(columns - 1)) / static_cast<double>(columns);
     for (std::size_t column = 0; column < columns && begin + column * rows < end; ++column)

@@ -22,7 +22,8 @@ constexpr double RowPitch = 4.5;
 constexpr double TightRowPitch = 3.6;
 constexpr double RowTextShare = 0.62;      // of the row pitch
 constexpr double SmallestView = 40.0;      // height
-constexpr double UsualView = 80.0;         // height that tall slices leave
+constexpr double UsualView = 80.0;         // height
+constexpr double SmallestSlice = 35.0;     // width without the room for letters, of tall slices
 constexpr double PreferenceOfOneRow = 0.9; // two rows fill the page better
 constexpr std::size_t RowsBesideProvenance = 9;
 constexpr std::size_t RowsOfTableApart = 20;
@@ -110,9 +111,10 @@ SliceHeight(double width)
 }
 
 /** Places beside each other for slices of one scale, with room for letters about each; square places if the sizes of
- * slices are not known. The scale is in mm of paper per mm. Returns the height of the row. */
+ * slices are not known. The scale is in mm of paper per mm. The row is as high as preferred, or higher where slices
+ * would be too small. Returns its height. */
 double
-PlaceSlices(const Sheet & s, const Rectangle & area, SheetPlaces & places)
+PlaceSlices(const Sheet & s, const Rectangle & area, double preferred, SheetPlaces & places)
 {
   const bool hasSizes = std::all_of(s.slices.begin(), s.slices.end(), [](const SheetPicture & slice) {
     return slice.width > 0.0 && slice.height > 0.0;
@@ -124,18 +126,22 @@ PlaceSlices(const Sheet & s, const Rectangle & area, SheetPlaces & places)
   }
   double widths = 0.0;
   double highest = 0.0;
+  double narrowest = s.slices.front().width;
   for (const SheetPicture & slice : s.slices)
   {
     widths += slice.width;
+    narrowest = std::min(narrowest, slice.width);
     highest = std::max(highest, slice.height);
   }
   const auto count = static_cast<double>(s.slices.size());
   const double free = area.width - Gap * (count - 1.0) - 2.0 * RoomForLetters * count;
-  const double ofHeight = (std::max(area.height, SliceHeight(area.width)) - 2.0 * RoomForLetters) / highest;
+  const auto scaleOfHeight = [highest](double height) { return (height - 2.0 * RoomForLetters) / highest; };
+  const double ofHeight = scaleOfHeight(std::max(preferred, SliceHeight(area.width)));
+  const double smallest = std::min(SmallestSlice / narrowest, scaleOfHeight(area.height));
   const double ofWidth = free / widths;
   const double ofSquares =
     (SliceHeight(area.width) - 2.0 * RoomForLetters) * count / widths; // one or two are no larger
-  places.sliceScale = std::min({ ofHeight, ofWidth, ofSquares });
+  places.sliceScale = std::min({ std::max(ofHeight, smallest), ofWidth, ofSquares });
   const double beside = (std::min(ofWidth, ofSquares) - places.sliceScale) * widths / count;
   double left = area.left;
   for (const SheetPicture & slice : s.slices)
@@ -147,13 +153,14 @@ PlaceSlices(const Sheet & s, const Rectangle & area, SheetPlaces & places)
   return places.sliceScale * highest + 2.0 * RoomForLetters;
 }
 
-/** Views over slices. Returns the bottom edge. */
+/** Views over slices. Returns the bottom edge.
+ * \param rows of views of the usual height, which the slices leave room for if they can */
 double
-PlacePictures(const Sheet & s, const Rectangle & area, SheetPlaces & places)
+PlacePictures(const Sheet & s, const Rectangle & area, int rows, SheetPlaces & places)
 {
-  const double views = s.views.empty() ? 0.0 : UsualView + CaptionHeight + Gap;
-  const Rectangle largest{ area.left, area.top, area.width, area.height - views - CaptionHeight - Gap };
-  const double height = PlaceSlices(s, largest, places);
+  const double row = s.views.empty() ? 0.0 : UsualView + CaptionHeight + Gap;
+  const Rectangle largest{ area.left, area.top, area.width, area.height - row - CaptionHeight - Gap };
+  const double height = PlaceSlices(s, largest, largest.height - (rows - 1) * row, places);
   const double slices = s.slices.empty() ? 0.0 : height + CaptionHeight + Gap;
   const double top = PlaceViews(s, { area.left, area.top, area.width, area.height - slices }, places.views);
   for (Rectangle & place : places.slices)
@@ -205,7 +212,7 @@ PlanApart(const Sheet & s, SheetPlan & plan)
   plan.provenanceHeights = MeasureProvenance(s, 0.5 * content.width - Gap, plan.millimetre);
   const double provenance = DivideProvenance(2, plan);
   plan.provenance = { content.left, content.Bottom() - provenance, content.width, provenance };
-  PlacePictures(s, content, plan.places);
+  PlacePictures(s, content, s.views.size() > 2 ? 2 : 1, plan.places);
 }
 
 /** Table under the pictures, provenance beside it when the table is short, else under it. */
@@ -226,7 +233,7 @@ PlanPortrait(const Sheet & s, SheetPlan & plan)
   }
   const double below = isBeside ? std::max(table, provenance) : provenance + Gap + table;
   const double bottom =
-    PlacePictures(s, { content.left, content.top, content.width, content.height - below }, plan.places);
+    PlacePictures(s, { content.left, content.top, content.width, content.height - below }, 1, plan.places);
   const double width = isBeside ? half : content.width;
   plan.provenance = isBeside ? Rectangle{ content.Right() - half, bottom, half, provenance }
                              : Rectangle{ content.left, content.Bottom() - provenance, content.width, provenance };
@@ -240,7 +247,7 @@ PlanLandscape(const Sheet & s, SheetPlan & plan)
 {
   const Rectangle & content = plan.content;
   const double width = PictureShare * content.width;
-  PlacePictures(s, { content.left, content.top, width, content.height }, plan.places);
+  PlacePictures(s, { content.left, content.top, width, content.height }, 1, plan.places);
   const double left = content.left + width + 2.0 * Gap;
   plan.provenanceHeights = MeasureProvenance(s, content.Right() - left, plan.millimetre);
   const double provenance = DivideProvenance(1, plan);

@@ -68,7 +68,7 @@ std::optional<std::array<std::uint8_t, 3>>
 FindAnatomicalColour(const std::string & name);
 
 /** The group of a structure, by its name as FindAnatomicalColour() takes it: "bones", "vessels", "organs", "muscles",
- * "nerves", "tissues", "findings" or "devices", as the same table says. Empty for other names. */
+ * "brain and nerves", "tissues", "findings" or "devices", as the same table says. Empty for other names. */
 std::string
 FindAnatomicalGroup(const std::string & name);
 
