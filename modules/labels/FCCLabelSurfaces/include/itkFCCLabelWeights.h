@@ -96,6 +96,24 @@ public:
   const float *
   Find(SizeValueType row, std::uint32_t i, LabelType label) const;
 
+  /** Calls use(label, weight) for the weights that are stored at a site. */
+  template <typename TUse>
+  void
+  ForEachAt(SizeValueType row, std::uint32_t i, const TUse & use) const
+  {
+    const std::vector<std::uint32_t> & begins = m_Begins[row];
+    const std::uint32_t place = i / SitesPerBegin;
+    for (std::uint32_t n = place + 1 < begins.size() ? begins[place] : 0;
+         place + 1 < begins.size() && n < begins[place + 1];
+         ++n)
+    {
+      if (const Entry & entry = m_Rows[row][n]; entry.i == i)
+      {
+        use(entry.label, entry.weight);
+      }
+    }
+  }
+
   SizeValueType
   GetNumberOfWeights() const;
 

@@ -26,17 +26,6 @@ FCCLabelBox::GetLabel(const Index<3> & site) const
            : 0;
 }
 
-double
-FCCLabelBox::GetWeight(const Index<3> & site, LabelType label) const
-{
-  SizeValueType row = 0;
-  const float * const weight = m_Weights != nullptr && this->FindImageRow(site, row)
-                                 ? m_Weights->Find(row, static_cast<std::uint32_t>(site[0] - 1), label)
-                                 : nullptr;
-  const float limit = this->GetLabel(site) == label ? FCCLabelWeights::Limit : -FCCLabelWeights::Limit;
-  return weight != nullptr ? *weight : limit;
-}
-
 TriangleSurface::PointType
 FCCLabelBox::GetPoint(const Index<3> & index, const PositionType & steps) const
 {
@@ -66,6 +55,7 @@ FCCLabelBox::Plane::Plane(const FCCLabelBox & box, SizeValueType k)
 FCCLabelPlane::FCCLabelPlane(const FCCLabelBox & box)
   : m_Box(box)
   , m_Bits(box.GetHeight() * FCCCells::Types, box.GetNumberOfWords(), std::pmr::get_default_resource())
+  , m_HasCutEdges(box.GetHeight())
 {}
 
 void
@@ -75,6 +65,7 @@ FCCLabelPlane::FindEdges(SizeValueType k, const FCCLabelBox::Plane & labels, con
   m_Bits.Clear();
   for (SizeValueType j = 0; j < m_Box.GetHeight(); ++j)
   {
+    FCCBits::WordType any = 0;
     for (unsigned int type = 0; type < FCCCells::Edges; ++type)
     {
       if (!m_Box.HasSimplices(j, k, type))
@@ -91,9 +82,24 @@ FCCLabelPlane::FindEdges(SizeValueType k, const FCCLabelBox::Plane & labels, con
       {
         const SizeValueType first = word * FCCBits::WordBits;
         bits[word] = FCCBits::Pack([=](SizeValueType n) { return starts[first + n] != ends[first + n]; });
+        any |= bits[word];
       }
     }
+    m_HasCutEdges[j] = any != 0 ? 1 : 0;
   }
+}
+
+bool
+FCCLabelPlane::MayHavePoints(const FCCLabelPlane & next, SizeValueType j) const
+{
+  const SizeValueType first = std::max<SizeValueType>(j, 1) - 1; // simplices reach to the rows beside theirs
+  const SizeValueType last = std::min(j + 1, m_Box.GetHeight() - 1);
+  bool hasCutEdges = false;
+  for (SizeValueType row = first; row <= last; ++row)
+  {
+    hasCutEdges = hasCutEdges || m_HasCutEdges[row] != 0 || next.m_HasCutEdges[row] != 0;
+  }
+  return hasCutEdges;
 }
 
 void
@@ -101,9 +107,10 @@ FCCLabelPlane::FindFacesAndTetrahedra(const FCCLabelPlane & next)
 {
   for (SizeValueType j = 0; j < m_Box.GetHeight(); ++j)
   {
+    const bool mayHavePoints = this->MayHavePoints(next, j);
     for (unsigned int type = FCCCells::FirstFace; type < FCCCells::Types; ++type)
     {
-      if (!m_Box.HasSimplices(j, m_K, type))
+      if (!mayHavePoints || !m_Box.HasSimplices(j, m_K, type))
       {
         continue;
       }

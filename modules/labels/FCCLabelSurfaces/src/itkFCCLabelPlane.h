@@ -7,6 +7,8 @@
 #include "itkFCCLabelCells.h"
 #include "itkFCCLabelWeights.h"
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 namespace itk
@@ -76,9 +78,28 @@ public:
   LabelType
   GetLabel(const Index<3> & site) const;
 
-  /** The weight of a label at a site, stored or not (see FCCLabelWeights). */
-  double
-  GetWeight(const Index<3> & site, LabelType label) const;
+  /** The weights of some labels at a site of a label, stored or not (see FCCLabelWeights). */
+  template <std::size_t VSize>
+  void
+  GetWeights(const Index<3> & site,
+             LabelType own,
+             const std::array<LabelType, VSize> & labels,
+             std::array<double, VSize> & weights) const
+  {
+    for (std::size_t n = 0; n < VSize; ++n)
+    {
+      weights[n] = labels[n] == own ? FCCLabelWeights::Limit : -FCCLabelWeights::Limit;
+    }
+    if (SizeValueType row = 0; m_Weights != nullptr && this->FindImageRow(site, row))
+    {
+      m_Weights->ForEachAt(row, static_cast<std::uint32_t>(site[0] - 1), [&](LabelType label, float weight) {
+        for (std::size_t n = 0; n < VSize; ++n)
+        {
+          weights[n] = labels[n] == label ? weight : weights[n];
+        }
+      });
+    }
+  }
 
   /** The point in the world at some lattice steps from the site at an index. */
   TriangleSurface::PointType
@@ -163,12 +184,6 @@ public:
   void
   FindFacesAndTetrahedra(const FCCLabelPlane & next);
 
-  SizeValueType
-  Count() const
-  {
-    return m_Bits.Count();
-  }
-
   /** Numbers the points from \a first on. */
   void
   Number(std::uint32_t first)
@@ -194,6 +209,11 @@ public:
     return m_Bits.GetNumberedRow(j * FCCCells::Types + type);
   }
 
+  /** Whether the j-th row may store simplices that hold a point.
+   * \param next the next plane */
+  bool
+  MayHavePoints(const FCCLabelPlane & next, SizeValueType j) const;
+
   /** A part of the simplices of some type that the j-th row stores.
    * \param next the next plane
    * \param set sites of the part, bit n for the n-th of the simplex */
@@ -204,6 +224,7 @@ private:
   const FCCLabelBox & m_Box;
   SizeValueType m_K{ 0 };
   FCCNumberedBits m_Bits;
+  std::vector<std::uint8_t> m_HasCutEdges; ///< by row
 };
 
 } // namespace itk

@@ -4,6 +4,7 @@
 #include "itkFCCLabelPlane.h"
 #include "itkInputSamples.h"
 #include "itkWorkProgress.h"
+#include "rhombicForEachBlock.h"
 
 #include <algorithm>
 #include <cmath>
@@ -130,9 +131,10 @@ ForEachTetrahedraRow(const FCCLabelPlane & plane, const FCCLabelPlane & next, co
   const FCCLabelBox & box = plane.GetBox();
   for (SizeValueType j = 0; j < box.GetHeight(); ++j)
   {
+    const bool mayHavePoints = plane.MayHavePoints(next, j);
     for (unsigned int type = FCCCells::FirstTetrahedron; type < FCCCells::Types; ++type)
     {
-      if (box.HasSimplices(j, plane.GetPlane(), type))
+      if (mayHavePoints && box.HasSimplices(j, plane.GetPlane(), type))
       {
         use(TetrahedraRow(plane, next, j, type), j, type);
       }
@@ -140,28 +142,21 @@ ForEachTetrahedraRow(const FCCLabelPlane & plane, const FCCLabelPlane & next, co
   }
 }
 
-SizeValueType
-CountTriangles(const FCCLabelPlane & plane, const FCCLabelPlane & next)
-{
-  SizeValueType count = 0;
-  ForEachTetrahedraRow(plane, next, [&](const TetrahedraRow & row, SizeValueType, unsigned int) {
-    row.ForEach([&](SizeValueType, const Cells::Case & found) { count += found.size; });
-  });
-  return count;
-}
+/** Values of the sites of a simplex. */
+template <typename TValue, std::size_t VSize>
+using BySite = std::array<TValue, VSize>;
 
-using Coordinates = std::array<double, 4>;
-
-/** Solves the rows a x = b of \a size equations, each row being a and b, by elimination with pivots. Returns whether
- * there is one solution. */
+/** Solves the rows a x = b of equations, each row being a and b, by elimination with pivots. Returns whether there is
+ * one solution. */
+template <std::size_t VSize>
 bool
-Solve(double (&rows)[4][5], unsigned int size, Coordinates & solution)
+Solve(std::array<std::array<double, VSize + 1>, VSize> & rows, BySite<double, VSize> & solution)
 {
   constexpr double singular = 1e-9; // weights are float32 of the size of 1
-  for (unsigned int column = 0; column < size; ++column)
+  for (std::size_t column = 0; column < VSize; ++column)
   {
-    unsigned int pivot = column;
-    for (unsigned int row = column + 1; row < size; ++row)
+    std::size_t pivot = column;
+    for (std::size_t row = column + 1; row < VSize; ++row)
     {
       pivot = std::abs(rows[row][column]) > std::abs(rows[pivot][column]) ? row : pivot;
     }
@@ -170,18 +165,18 @@ Solve(double (&rows)[4][5], unsigned int size, Coordinates & solution)
       return false;
     }
     std::swap(rows[pivot], rows[column]);
-    for (unsigned int row = 0; row < size; ++row)
+    for (std::size_t row = 0; row < VSize; ++row)
     {
       const double factor = row == column ? 0.0 : rows[row][column] / rows[column][column];
-      for (unsigned int n = column; factor != 0.0 && n <= size; ++n)
+      for (std::size_t n = column; factor != 0.0 && n <= VSize; ++n)
       {
         rows[row][n] -= factor * rows[column][n];
       }
     }
   }
-  for (unsigned int n = 0; n < size; ++n)
+  for (std::size_t n = 0; n < VSize; ++n)
   {
-    solution[n] = rows[n][size] / rows[n][n];
+    solution[n] = rows[n][VSize] / rows[n][n];
   }
   return true;
 }
@@ -190,65 +185,63 @@ Solve(double (&rows)[4][5], unsigned int size, Coordinates & solution)
  * weights, which are linear, tie outside of the simplex, the point is moved towards the simplex's middle until each
  * coordinate is at least MinimumFraction. The middle if they tie nowhere.
  *
- * \param size sites of the simplex: 2, 3 or 4
  * \param weights by site and label: [site][n] is the weight at a site of the label of the n-th site */
-Coordinates
-FindTie(unsigned int size, const double (&weights)[4][4])
+template <std::size_t VSize>
+BySite<double, VSize>
+FindTie(const BySite<BySite<double, VSize>, VSize> & weights)
 {
   constexpr double least = FCCLabelSurfaceFilter::MinimumFraction;
-  const unsigned int last = size - 1;
-  double rows[4][5] = {};
-  for (unsigned int site = 0; site < size; ++site)
+  constexpr std::size_t last = VSize - 1;
+  constexpr double middle = 1.0 / VSize;
+  std::array<std::array<double, VSize + 1>, VSize> rows{};
+  for (std::size_t site = 0; site < VSize; ++site)
   {
-    for (unsigned int label = 0; label < last; ++label)
+    for (std::size_t label = 0; label < last; ++label)
     {
       rows[label][site] = weights[site][label] - weights[site][last];
     }
     rows[last][site] = 1.0;
   }
-  rows[last][size] = 1.0;
-  const double middle = 1.0 / size;
-  Coordinates found{};
-  Coordinates point{};
-  if (!Solve(rows, size, found))
+  rows[last][VSize] = 1.0;
+  BySite<double, VSize> found{};
+  BySite<double, VSize> point;
+  point.fill(middle);
+  if (Solve<VSize>(rows, found))
   {
-    std::fill_n(point.begin(), size, middle);
-    return point;
-  }
-  double scale = 1.0; // of the way from the middle
-  for (unsigned int n = 0; n < size; ++n)
-  {
-    scale = found[n] < least ? std::min(scale, (middle - least) / (middle - found[n])) : scale;
-  }
-  for (unsigned int n = 0; n < size; ++n)
-  {
-    point[n] = middle + scale * (found[n] - middle);
+    double scale = 1.0; // of the way from the middle
+    for (std::size_t n = 0; n < VSize; ++n)
+    {
+      scale = found[n] < least ? std::min(scale, (middle - least) / (middle - found[n])) : scale;
+    }
+    for (std::size_t n = 0; n < VSize; ++n)
+    {
+      point[n] = middle + scale * (found[n] - middle);
+    }
   }
   return point;
 }
 
-/** The point of a simplex of some type at the site of an index. */
+/** The point of a simplex of VSize sites and of some type at the site of an index. */
+template <std::size_t VSize>
 TriangleSurface::PointType
 PlacePoint(const FCCLabelBox & box, const Index<3> & index, unsigned int type)
 {
   const FCCCells::Simplex & simplex = FCCCells::Simplices[type];
-  Index<3> sites[4];
-  for (unsigned int n = 0; n < simplex.size; ++n)
+  BySite<Index<3>, VSize> sites;
+  BySite<FCCLabelBox::LabelType, VSize> labels;
+  for (std::size_t n = 0; n < VSize; ++n)
   {
     sites[n] = box.Step(index, simplex.steps[n]);
+    labels[n] = box.GetLabel(sites[n]);
   }
-  double weights[4][4] = {};
-  for (unsigned int n = 0; n < simplex.size; ++n)
+  BySite<BySite<double, VSize>, VSize> weights;
+  for (std::size_t n = 0; n < VSize; ++n)
   {
-    const auto label = box.GetLabel(sites[n]);
-    for (unsigned int site = 0; site < simplex.size; ++site)
-    {
-      weights[site][n] = box.GetWeight(sites[site], label);
-    }
+    box.GetWeights(sites[n], labels[n], labels, weights[n]);
   }
-  const Coordinates coordinates = FindTie(simplex.size, weights);
+  const BySite<double, VSize> coordinates = FindTie<VSize>(weights);
   PositionType steps{};
-  for (unsigned int n = 0; n < simplex.size; ++n)
+  for (std::size_t n = 0; n < VSize; ++n)
   {
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
@@ -264,27 +257,48 @@ BoxIndex(SizeValueType i, SizeValueType j, SizeValueType k)
   return { { static_cast<IndexValueType>(i), static_cast<IndexValueType>(j), static_cast<IndexValueType>(k) } };
 }
 
+/** The walls of some planes; points are numbered from the first of these planes. */
+struct WallsOfSlab
+{
+  TriangleSurface::PointsContainer points;
+  TriangleSurface::TrianglesContainer triangles;
+  LabelWalls::LabelPairsContainer pairs;
+};
+
+/** Adds the points of the simplices of VSize sites, which are of some types, in a row. */
+template <std::size_t VSize>
 void
-FillPoints(const FCCLabelPlane & plane, TriangleSurface::PointType * points)
+AddPointsOfRow(const FCCLabelPlane & plane,
+               SizeValueType j,
+               unsigned int beginType,
+               unsigned int endType,
+               TriangleSurface::PointsContainer & points)
 {
   const FCCLabelBox & box = plane.GetBox();
-  for (SizeValueType j = 0; j < box.GetHeight(); ++j)
+  for (unsigned int type = beginType; type < endType; ++type)
   {
-    for (unsigned int type = 0; type < FCCCells::Types; ++type)
+    FCCBits::ForEach(plane.GetRow(j, type).bits, box.GetNumberOfWords(), [&](SizeValueType i) {
+      points.push_back(PlacePoint<VSize>(box, BoxIndex(i, j, plane.GetPlane()), type));
+    });
+  }
+}
+
+void
+AddPoints(const FCCLabelPlane & plane, const FCCLabelPlane & next, TriangleSurface::PointsContainer & points)
+{
+  for (SizeValueType j = 0; j < plane.GetBox().GetHeight(); ++j)
+  {
+    if (plane.MayHavePoints(next, j))
     {
-      FCCBits::ForEach(plane.GetRow(j, type).bits, box.GetNumberOfWords(), [&](SizeValueType i) {
-        *points++ = PlacePoint(box, BoxIndex(i, j, plane.GetPlane()), type);
-      });
+      AddPointsOfRow<2>(plane, j, 0, FCCCells::FirstFace, points);
+      AddPointsOfRow<3>(plane, j, FCCCells::FirstFace, FCCCells::FirstTetrahedron, points);
+      AddPointsOfRow<4>(plane, j, FCCCells::FirstTetrahedron, FCCCells::Types, points);
     }
   }
 }
 
 void
-FillTriangles(const FCCLabelPlane & plane,
-              const FCCLabelPlane & next,
-              bool isLeftHanded,
-              TriangleSurface::TriangleType * triangles,
-              LabelWalls::LabelPairType * pairs)
+AddTriangles(const FCCLabelPlane & plane, const FCCLabelPlane & next, bool isLeftHanded, WallsOfSlab & walls)
 {
   const FCCLabelBox & box = plane.GetBox();
   ForEachTetrahedraRow(plane, next, [&](const TetrahedraRow & row, SizeValueType j, unsigned int type) {
@@ -303,19 +317,44 @@ FillTriangles(const FCCLabelPlane & plane,
         const bool isTurned = (front > back) != (simplex.isPositive == isLeftHanded);
         const std::uint32_t second = row.GetNumber(triangle.corners[1], i);
         const std::uint32_t third = row.GetNumber(triangle.corners[2], i);
-        *triangles++ = { row.GetNumber(triangle.corners[0], i), isTurned ? third : second, isTurned ? second : third };
-        *pairs++ = { std::min(front, back), std::max(front, back) };
+        walls.triangles.push_back(
+          { row.GetNumber(triangle.corners[0], i), isTurned ? third : second, isTurned ? second : third });
+        walls.pairs.push_back({ std::min(front, back), std::max(front, back) });
       }
     });
   });
 }
 
-/** Numbers of points and triangles, of a plane or before it. */
-struct Counts
+/** Puts the walls of all slabs, in their order, together. */
+void
+JoinSlabs(const std::vector<WallsOfSlab> & slabs, LabelWalls & walls)
 {
-  SizeValueType points = 0;
-  SizeValueType triangles = 0;
-};
+  std::vector<SizeValueType> points(slabs.size() + 1); // and triangles: before each slab, and of all
+  std::vector<SizeValueType> triangles(slabs.size() + 1);
+  for (std::size_t n = 0; n < slabs.size(); ++n)
+  {
+    points[n + 1] = points[n] + slabs[n].points.size();
+    triangles[n + 1] = triangles[n] + slabs[n].triangles.size();
+  }
+  if (points.back() > std::numeric_limits<std::uint32_t>::max())
+  {
+    itkGenericExceptionMacro("The walls would have " << points.back() << " points, more than 32-bit indices reach; use "
+                                                     << "a coarser lattice.");
+  }
+  walls.GetPoints().resize(points.back());
+  walls.GetTriangles().resize(triangles.back());
+  walls.GetTriangleLabels().resize(triangles.back());
+  rhombic::ForEachOnThreads(slabs.size(), [&](std::size_t n) {
+    std::copy(slabs[n].points.begin(), slabs[n].points.end(), walls.GetPoints().data() + points[n]);
+    std::copy(slabs[n].pairs.begin(), slabs[n].pairs.end(), walls.GetTriangleLabels().data() + triangles[n]);
+    const auto first = static_cast<std::uint32_t>(points[n]);
+    const auto number = [first](const TriangleSurface::TriangleType & triangle) {
+      return TriangleSurface::TriangleType{ triangle[0] + first, triangle[1] + first, triangle[2] + first };
+    };
+    std::transform(
+      slabs[n].triangles.begin(), slabs[n].triangles.end(), walls.GetTriangles().data() + triangles[n], number);
+  });
+}
 
 } // namespace
 
@@ -337,48 +376,25 @@ FCCLabelSurfaceFilter::GenerateData()
   }
   const FCCLabelBox box(image, this->GetWeights());
   const bool isLeftHanded = vnl_determinant(image.GetDirection().GetVnlMatrix()) < 0.0;
-  WorkProgress progress(*this, 2 * box.GetDepth());
-  const auto forEachPlane = [&](const auto & work) { // calls work(k, window of the planes from k on)
-    ForEachSlab(*this, box.GetDepth(), 1, 64, [&](SizeValueType begin, SizeValueType end) {
-      progress.CheckAbort();
-      PlaneWindow window(box, begin);
-      for (SizeValueType k = begin; k < end; ++k)
-      {
-        work(k, window);
-        window.Advance();
-      }
-      progress.Completed(end - begin);
-    });
-  };
-  std::vector<Counts> before(box.GetDepth() + 1); // first the counts of plane k at k + 1
-  forEachPlane([&](SizeValueType k, PlaneWindow & window) {
-    before[k + 1] = { window.Get(0).Count(), CountTriangles(window.Get(0), window.Get(1)) };
+  WorkProgress progress(*this, box.GetDepth());
+  std::vector<WallsOfSlab> slabs(box.GetDepth()); // each at its first plane
+  ForEachSlab(*this, box.GetDepth(), 1, 64, [&](SizeValueType begin, SizeValueType end) {
+    progress.CheckAbort();
+    PlaneWindow window(box, begin);
+    WallsOfSlab walls;
+    window.Get(0).Number(0);
+    for (SizeValueType k = begin; k < end; ++k)
+    {
+      AddPoints(window.Get(0), window.Get(1), walls.points);
+      window.Get(1).Number(static_cast<std::uint32_t>(walls.points.size()));
+      AddTriangles(window.Get(0), window.Get(1), isLeftHanded, walls);
+      window.Advance();
+    }
+    slabs[begin] = std::move(walls);
+    progress.Completed(end - begin);
   });
-  for (SizeValueType k = 0; k < box.GetDepth(); ++k)
-  {
-    before[k + 1].points += before[k].points;
-    before[k + 1].triangles += before[k].triangles;
-  }
-  if (before.back().points > std::numeric_limits<std::uint32_t>::max())
-  {
-    itkExceptionMacro("The walls would have " << before.back().points
-                                              << " points, more than 32-bit indices reach; use a coarser lattice.");
-  }
-  LabelWalls & walls = *this->GetOutput();
-  walls.Initialize();
-  walls.GetPoints().resize(before.back().points);
-  walls.GetTriangles().resize(before.back().triangles);
-  walls.GetTriangleLabels().resize(before.back().triangles);
-  forEachPlane([&](SizeValueType k, PlaneWindow & window) {
-    window.Get(0).Number(static_cast<std::uint32_t>(before[k].points));
-    window.Get(1).Number(static_cast<std::uint32_t>(before[k + 1].points));
-    FillPoints(window.Get(0), walls.GetPoints().data() + before[k].points);
-    FillTriangles(window.Get(0),
-                  window.Get(1),
-                  isLeftHanded,
-                  walls.GetTriangles().data() + before[k].triangles,
-                  walls.GetTriangleLabels().data() + before[k].triangles);
-  });
+  this->GetOutput()->Initialize();
+  JoinSlabs(slabs, *this->GetOutput());
   progress.Finish();
 }
 
