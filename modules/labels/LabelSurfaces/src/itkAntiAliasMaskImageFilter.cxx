@@ -76,7 +76,7 @@ struct MaskWork
   std::array<SizeValueType, 3> size;
   const std::uint8_t * mask;
   float * field;
-  float * scratch; ///< for each voxel
+  float * scratch; ///< for each voxel, rows having RowArithmetic::PaddedLength()
   double widening; ///< of all Gaussians
 
   SizeValueType
@@ -166,6 +166,23 @@ struct MaskWork
     });
   }
 
+  /** The same one by one, in the order of the voxels. */
+  template <typename TUse>
+  void
+  ForEachVoxelInOrder(const VoxelBand & band, const TUse & use) const
+  {
+    for (SizeValueType row = 0; row < size[1] * size[2]; ++row)
+    {
+      this->CheckAbortAt(row);
+      band.ForEachRun(row, [&](SizeValueType begin, SizeValueType end) {
+        for (SizeValueType voxel = row * size[0] + begin; voxel < row * size[0] + end; ++voxel)
+        {
+          use(voxel);
+        }
+      });
+    }
+  }
+
   /** Checks for an abort at some of the steps of a serial loop. */
   void
   CheckAbortAt(SizeValueType n) const
@@ -207,40 +224,62 @@ InverseSlope(double sigma)
   return sigma * std::sqrt(2.0 * Math::pi);
 }
 
-/** Writes the values of a row to be smoothed. */
-using RowReader = std::function<void(SizeValueType row, float * values)>;
+/** Writes the values of a row to be smoothed, or returns false if all are 0. */
+using RowReader = std::function<bool(SizeValueType row, float * values)>;
 
 /** Takes the smoothed values of a part of a row; values[x] is the value of voxel x. */
 using RowWriter = std::function<void(SizeValueType row, SizeValueType begin, SizeValueType end, const float * values)>;
 
-/** Smooths rows along y or z at the voxels of a band.
- * \param rows the rows of numbers \a first, first + step, ..., each \a stride values long */
+/** Rows in a line along y or z: their values, or null where all are 0. */
+using LineOfRows = std::vector<const float *>;
+
+/** Smooths across a line of rows at the voxels of a band.
+ * \param first, step the numbers of the rows are first, first + step, ...
+ * \param target gives the place for the smoothed values of a row */
+template <typename TTarget>
 void
 SmoothAcrossRows(const std::vector<float> & weights,
-                 const std::vector<float> & rows,
-                 SizeValueType stride,
+                 const LineOfRows & rows,
                  SizeValueType first,
                  SizeValueType step,
                  const VoxelBand & band,
+                 const TTarget & target,
                  const RowWriter & write)
 {
-  const SizeValueType count = rows.size() / stride;
-  std::vector<const float *> terms(weights.size());
-  std::vector<float> blend(stride);
-  for (SizeValueType n = 0; n < count; ++n)
+  LineOfRows terms(weights.size());
+  LineOfRows termsOfRun(weights.size());
+  std::vector<float> weightsOfTerms(weights.size());
+  for (SizeValueType n = 0; n < rows.size(); ++n)
   {
+    SizeValueType count = 0;
+    for (SizeValueType tap = 0; tap < weights.size() && band.HasRow(first + n * step); ++tap)
+    {
+      terms[count] = rows[ClampedIndex(n + tap, weights.size() / 2, rows.size())];
+      weightsOfTerms[count] = weights[tap];
+      count += terms[count] != nullptr ? 1 : 0;
+    }
     band.ForEachRun(first + n * step, [&](SizeValueType begin, SizeValueType end) {
-      for (SizeValueType tap = 0; tap < terms.size(); ++tap)
+      float * const smoothed = target(n);
+      const auto isAtBegin = [begin](const float * row) { return row + begin; };
+      std::transform(terms.begin(), terms.begin() + static_cast<std::ptrdiff_t>(count), termsOfRun.begin(), isAtBegin);
+      if (count > 0)
       {
-        terms[tap] = rows.data() + ClampedIndex(n + tap, terms.size() / 2, count) * stride + begin;
+        RowArithmetic::Blend(termsOfRun.data(), weightsOfTerms.data(), count, end - begin, smoothed + begin);
       }
-      RowArithmetic::Blend(terms.data(), weights.data(), terms.size(), end - begin, blend.data() + begin);
-      write(first + n * step, begin, end, blend.data());
+      else
+      {
+        std::fill(smoothed + begin, smoothed + end, 0.0f);
+      }
+      if (write)
+      {
+        write(first + n * step, begin, end, smoothed);
+      }
     });
   }
 }
 
-/** Smooths the rows of \a read with a Gaussian and passes their parts in a band to \a write. */
+/** Smooths the rows of \a read with a Gaussian and passes their parts in a band to \a write. Rows and planes of zeros
+ * take no time: in thick slices most are. */
 void
 Smooth(const MaskWork & work, double sigma, const VoxelBand & band, const RowReader & read, const RowWriter & write)
 {
@@ -254,42 +293,47 @@ Smooth(const MaskWork & work, double sigma, const VoxelBand & band, const RowRea
   const VoxelBand smoothedInRow = smoothedInPlane.Widened({ 0, reach, 0 });
 
   // Along x and y, plane by plane.
+  VoxelSet hasValues(depth); // by plane
   work.progress.ForEach(depth, [&](SizeValueType z) {
     std::vector<float> extended(stride + 2 * reach);
-    std::vector<float> plane(height * stride);
+    std::vector<float> plane;
+    LineOfRows rows(height);
     std::vector<const float *> terms(weights.size());
     for (SizeValueType y = 0; y < height; ++y)
     {
-      if (smoothedInRow.HasRow(y + z * height))
+      if (!smoothedInRow.HasRow(y + z * height) || !read(y + z * height, extended.data() + reach))
       {
-        read(y + z * height, extended.data() + reach);
-        std::fill_n(extended.begin(), reach, extended[reach]);
-        std::fill_n(extended.begin() + static_cast<std::ptrdiff_t>(reach + width), reach, extended[reach + width - 1]);
+        continue;
       }
+      plane.resize(height * stride);
+      rows[y] = plane.data() + y * stride;
+      hasValues[z] = 1;
+      std::fill_n(extended.begin(), reach, extended[reach]);
+      std::fill_n(extended.begin() + static_cast<std::ptrdiff_t>(reach + width), reach, extended[reach + width - 1]);
       smoothedInRow.ForEachRun(y + z * height, [&](SizeValueType begin, SizeValueType end) {
         std::iota(terms.begin(), terms.end(), extended.data() + begin);
-        float * const blend = plane.data() + y * stride + begin;
-        RowArithmetic::Blend(terms.data(), weights.data(), terms.size(), end - begin, blend);
+        RowArithmetic::Blend(
+          terms.data(), weights.data(), terms.size(), end - begin, plane.data() + y * stride + begin);
       });
     }
-    const auto toScratch = [&](SizeValueType row, SizeValueType begin, SizeValueType end, const float * values) {
-      std::copy(values + begin, values + end, work.scratch + row * width + begin);
-    };
-    SmoothAcrossRows(weights, plane, stride, z * height, 1, smoothedInPlane, toScratch);
+    if (hasValues[z] != 0)
+    {
+      const auto inScratch = [&](SizeValueType y) { return work.scratch + (y + z * height) * stride; };
+      SmoothAcrossRows(weights, rows, z * height, 1, smoothedInPlane, inScratch, nullptr);
+    }
     work.progress.Completed(1);
   });
 
   // Along z, for each y.
   work.progress.ForEach(height, [&](SizeValueType y) {
-    std::vector<float> rows(depth * stride);
+    std::vector<float> smoothed(stride);
+    LineOfRows rows(depth);
     for (SizeValueType z = 0; z < depth; ++z)
     {
-      smoothedInPlane.ForEachRun(y + z * height, [&](SizeValueType begin, SizeValueType end) {
-        const float * const smoothed = work.scratch + (y + z * height) * width;
-        std::copy(smoothed + begin, smoothed + end, rows.data() + z * stride + begin);
-      });
+      rows[z] = hasValues[z] != 0 ? work.scratch + (y + z * height) * stride : nullptr;
     }
-    SmoothAcrossRows(weights, rows, stride, y, height, band, write);
+    SmoothAcrossRows(
+      weights, rows, y, height, band, [&](SizeValueType) { return smoothed.data(); }, write);
     work.progress.Completed(1);
   });
 }
@@ -389,11 +433,14 @@ MatchLocalVolumes(const MaskWork & work, const Scale & scale, const VoxelBand & 
           values[x] = alongX.isSample[x] * ((mask[x] != 0 ? 1.0f : 0.0f) - coverage);
         }
       };
-      std::fill_n(values, width, 0.0f);
-      if (alongY.isSample[row % height] * alongZ.isSample[row / height] > 0.0f)
+      const bool hasSamples =
+        alongY.isSample[row % height] * alongZ.isSample[row / height] > 0.0f && (isFirst || band.HasRow(row));
+      if (hasSamples)
       {
+        std::fill_n(values, width, 0.0f);
         isFirst ? read(0, width) : band.ForEachRun(row, read);
       }
+      return hasSamples;
     };
     const auto correct = [&](SizeValueType row, SizeValueType begin, SizeValueType end, const float * values) {
       const float share = alongY.share[row % height] * alongZ.share[row / height];
@@ -429,20 +476,17 @@ FindNarrow(const MaskWork & work,
   return isAny;
 }
 
-/** Replaces the field around the narrow voxels by that for a smaller Gaussian. */
+/** Replaces the field around the narrow voxels of a band by that for a smaller Gaussian. */
 void
-Refine(const MaskWork & work, const Scale & scale, const VoxelSet & isNarrow)
+Refine(const MaskWork & work, const Scale & scale, const VoxelBand & band, const VoxelSet & isNarrow)
 {
   constexpr double blendingSigma = 1.0;
   const SizeValueType width = work.size[0];
   VoxelBand narrow(work.size);
-  work.ForEachRow([&](SizeValueType row) {
-    for (SizeValueType x = 0; x < width; ++x)
+  work.ForEachVoxel(band, [&](SizeValueType voxel) {
+    if (isNarrow[voxel] != 0)
     {
-      if (isNarrow[row * width + x] != 0)
-      {
-        narrow.Mark(row, x);
-      }
+      narrow.Mark(voxel / width, voxel % width);
     }
   });
   const SizeValueType blended = GaussianWeights(blendingSigma).size() / 2;
@@ -453,7 +497,10 @@ Refine(const MaskWork & work, const Scale & scale, const VoxelSet & isNarrow)
     work,
     blendingSigma,
     narrow.Widened({ blended, blended, blended }),
-    [&](SizeValueType row, float * values) { std::copy_n(isNarrow.data() + row * width, width, values); },
+    [&](SizeValueType row, float * values) {
+      std::copy_n(isNarrow.data() + row * width, width, values);
+      return narrow.HasRow(row);
+    },
     [&](SizeValueType row, SizeValueType begin, SizeValueType end, const float * values) {
       for (SizeValueType x = begin; x < end; ++x)
       {
@@ -496,18 +543,17 @@ IsThick(const MaskWork & work, SizeValueType voxel)
   return false;
 }
 
-/** Calls use(part) for the connected members of one class, part by part, in the order of their first voxels. */
+/** Calls use(part) for the connected members of one class, part by part, in the order of their first voxels. Members
+ * are in the band. */
 template <typename TTest, typename TUse>
 void
-ForEachPart(const MaskWork & work, const TTest & isMember, const TUse & use)
+ForEachPart(const MaskWork & work, const VoxelBand & band, const TTest & isMember, const TUse & use)
 {
   VoxelSet isSeen(work.GetNumberOfVoxels());
-  for (SizeValueType first = 0; first < isSeen.size(); ++first)
-  {
-    work.CheckAbortAt(first);
+  work.ForEachVoxelInOrder(band, [&](SizeValueType first) {
     if (!isMember(first) || isSeen[first] != 0)
     {
-      continue;
+      return;
     }
     std::vector<SizeValueType> part{ first };
     isSeen[first] = 1;
@@ -524,7 +570,7 @@ ForEachPart(const MaskWork & work, const TTest & isMember, const TUse & use)
       });
     }
     use(part);
-  }
+  });
 }
 
 /** Whether a few voxels are one piece, connected through faces, edges and corners. */
@@ -568,7 +614,7 @@ FindForms(const MaskWork & work, const VoxelBand & band, std::vector<VoxelForm> 
   work.ForEachVoxel(
     band, [&](SizeValueType voxel) { forms[voxel] = IsThick(work, voxel) ? VoxelForm::Thick : VoxelForm::Thin; });
   const auto isThin = [&forms](SizeValueType voxel) { return forms[voxel] != VoxelForm::Thick; };
-  ForEachPart(work, isThin, [&](const std::vector<SizeValueType> & part) {
+  ForEachPart(work, band, isThin, [&](const std::vector<SizeValueType> & part) {
     const VoxelForm form = part.size() >= SmallestSheet ? VoxelForm::Sheet
                            : IsSpur(work, part, isThin) ? VoxelForm::Spur
                                                         : VoxelForm::SmallPart;
@@ -579,20 +625,18 @@ FindForms(const MaskWork & work, const VoxelBand & band, std::vector<VoxelForm> 
   });
 }
 
-/** Leaves the protected voxels of the narrow ones: thin voxels that are still on the wrong side, without spurs. */
+/** Leaves the protected voxels of the narrow ones, all of which are in the band: thin voxels that are still on the
+ * wrong side, without spurs. */
 void
-KeepProtected(const MaskWork & work, const std::vector<VoxelForm> & forms, VoxelSet & isNarrow)
+KeepProtected(const MaskWork & work, const std::vector<VoxelForm> & forms, const VoxelBand & band, VoxelSet & isNarrow)
 {
-  work.ForEachRow([&](SizeValueType row) {
-    for (SizeValueType voxel = row * work.size[0]; voxel < (row + 1) * work.size[0]; ++voxel)
-    {
-      const bool isUnprotectedForm =
-        forms[voxel] == VoxelForm::Thick || (forms[voxel] == VoxelForm::Sheet && work.filter.GetProtectSpecksOnly());
-      isNarrow[voxel] &= work.GetDepth(voxel) < -Lost && !isUnprotectedForm ? 1 : 0;
-    }
+  work.ForEachVoxel(band, [&](SizeValueType voxel) {
+    const bool isUnprotectedForm =
+      forms[voxel] == VoxelForm::Thick || (forms[voxel] == VoxelForm::Sheet && work.filter.GetProtectSpecksOnly());
+    isNarrow[voxel] &= work.GetDepth(voxel) < -Lost && !isUnprotectedForm ? 1 : 0;
   });
   const auto isMember = [&isNarrow](SizeValueType voxel) { return isNarrow[voxel] != 0; };
-  ForEachPart(work, isMember, [&](const std::vector<SizeValueType> & part) {
+  ForEachPart(work, band, isMember, [&](const std::vector<SizeValueType> & part) {
     if (part.size() <= LargestSpur && IsSpur(work, part, isMember))
     {
       for (const SizeValueType voxel : part)
@@ -603,9 +647,9 @@ KeepProtected(const MaskWork & work, const std::vector<VoxelForm> & forms, Voxel
   });
 }
 
-/** Puts tubes around the protected voxels of one class. */
+/** Puts tubes around the protected voxels of one class in a band. */
 void
-PutTubes(const MaskWork & work, const VoxelSet & isProtected, bool isInside)
+PutTubes(const MaskWork & work, const VoxelBand & band, const VoxelSet & isProtected, bool isInside)
 {
   const float side = isInside ? 1.0f : -1.0f;
   const auto raise = [&](const Index<3> & index, float depth) {
@@ -614,12 +658,10 @@ PutTubes(const MaskWork & work, const VoxelSet & isProtected, bool isInside)
     const bool isOwn = work.IsInside(voxel) == isInside;
     work.field[voxel] = side * std::max(side * work.field[voxel], isOwn ? depth : std::min(depth, -barely));
   };
-  for (SizeValueType n = 0; n < isProtected.size(); ++n)
-  {
-    work.CheckAbortAt(n);
+  work.ForEachVoxelInOrder(band, [&](SizeValueType n) {
     if (isProtected[n] == 0 || work.IsInside(n) != isInside)
     {
-      continue;
+      return;
     }
     const Index<3> voxel = work.IndexOf(n);
     raise(voxel, TubeRadius);
@@ -644,22 +686,21 @@ PutTubes(const MaskWork & work, const VoxelSet & isProtected, bool isInside)
               TubeRadius - distance);
       }
     });
-  }
+  });
 }
 
-/** The inside voxels that pass a test, ascending. */
+/** The inside voxels of a band that pass a test, ascending. */
 template <typename TTest>
 std::vector<SizeValueType>
-ListInside(const MaskWork & work, const TTest & test)
+ListInside(const MaskWork & work, const VoxelBand & band, const TTest & test)
 {
   std::vector<SizeValueType> voxels;
-  for (SizeValueType voxel = 0; voxel < work.GetNumberOfVoxels(); ++voxel)
-  {
+  work.ForEachVoxelInOrder(band, [&](SizeValueType voxel) {
     if (test(voxel) && work.IsInside(voxel))
     {
       voxels.push_back(voxel);
     }
-  }
+  });
   return voxels;
 }
 
@@ -709,7 +750,7 @@ AntiAliasMaskImageFilter::GenerateData()
   VerifyInputSamples(*this, *this->GetInput());
   this->AllocateOutputs();
   const auto & size = this->GetOutput()->GetBufferedRegion().GetSize();
-  const std::unique_ptr<float[]> scratch(new float[size[0] * size[1] * size[2]]);
+  const std::unique_ptr<float[]> scratch(new float[RowArithmetic::PaddedLength(size[0]) * size[1] * size[2]]);
   const auto longestPeriod = *std::max_element(m_SamplePeriod.begin(), m_SamplePeriod.end());
   WorkProgress progress(*this, Passes * (size[1] + size[2]));
   const MaskWork work{ *this,
@@ -737,18 +778,18 @@ AntiAliasMaskImageFilter::GenerateData()
   VoxelSet isNarrow(work.GetNumberOfVoxels());
   if (FindNarrow(work, forms, band, Narrow * static_cast<float>(work.widening), isNarrow))
   {
-    Refine(work, Medium, isNarrow);
+    Refine(work, Medium, band, isNarrow);
   }
   FindForms(work, border.Widened({ 2, 2, 2 }), forms);
-  m_ThinVoxels = ListInside(work, [&](SizeValueType voxel) { return forms[voxel] != VoxelForm::Thick; });
+  m_ThinVoxels = ListInside(work, band, [&](SizeValueType voxel) { return forms[voxel] != VoxelForm::Thick; });
   m_ProtectedVoxels.clear();
   if (FindNarrow(work, forms, band, VeryNarrow, isNarrow))
   {
-    Refine(work, Fine, isNarrow);
-    KeepProtected(work, forms, isNarrow);
-    PutTubes(work, isNarrow, false);
-    PutTubes(work, isNarrow, true);
-    m_ProtectedVoxels = ListInside(work, [&](SizeValueType voxel) { return isNarrow[voxel] != 0; });
+    Refine(work, Fine, band, isNarrow);
+    KeepProtected(work, forms, band, isNarrow);
+    PutTubes(work, band, isNarrow, false);
+    PutTubes(work, band, isNarrow, true);
+    m_ProtectedVoxels = ListInside(work, band, [&](SizeValueType voxel) { return isNarrow[voxel] != 0; });
   }
   progress.Finish();
 }
