@@ -215,9 +215,15 @@ LabelTopology::FindReplacement(SizeValueType site)
 void
 LabelTopology::SeparateGroups()
 {
+  std::vector<std::size_t> sizes(std::numeric_limits<LabelType>::max() + std::size_t{ 1 }); // of groups
+  for (const LabelType group : m_Groups)
+  {
+    ++sizes[group];
+  }
+  const auto canMeet = [&](LabelType label) { return label < m_Groups.size() && sizes[m_Groups[label]] > 1; };
   std::vector<Change> meetings;
-  for (const Change & meeting : this->FindWeights([this](SizeValueType site, LabelType label) {
-         return label == this->LabelOf(site) && this->MeetsGroup(label, this->FindNeighbors(site));
+  for (const Change & meeting : this->FindWeights([&](SizeValueType site, LabelType label) {
+         return canMeet(label) && label == this->LabelOf(site) && this->MeetsGroup(label, this->FindNeighbors(site));
        }))
   {
     meetings.push_back(this->FindReplacement(meeting.site));

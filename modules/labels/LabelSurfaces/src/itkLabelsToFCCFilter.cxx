@@ -4,10 +4,9 @@
 #include "itkAntiAliasMaskImageFilter.h"
 #include "itkBoundingBox.h"
 #include "itkCartesianToFCCImageFilter.h"
-#include "itkFCCLabelSurfaceFilter.h"
 #include "itkInputSamples.h"
+#include "itkKeepLabelVolumes.h"
 #include "itkLabelTopology.h"
-#include "itkLabelVolumes.h"
 #include "itkLabelsOnLattice.h"
 #include "itkMath.h"
 #include "itkWorkProgress.h"
@@ -37,9 +36,6 @@ using MaskImage = Image<std::uint8_t, 3>;
 using FieldImage = Image<float, 3>;
 using FieldLattice = FCCImage<float>;
 
-constexpr unsigned int MostVolumeCorrections = 6;
-constexpr double SettledOffset = 0.06;    // of weights, 0.03 voxels: the next would be about 0.004 voxels
-constexpr double FarthestOffset = 2.0;    // of weights; twice as far as walls move, in voxels
 constexpr IndexValueType Margin = 2;      // voxels around the map
 constexpr IndexValueType LabelMargin = 4; // voxels around a label in which it has weights
 
@@ -408,39 +404,6 @@ ComputeVoxelVolumes(const LabelImage & map, const SliceOrigins & origins)
   return volumes;
 }
 
-/** Adds offsets to the weights of labels, so that their walls enclose the volumes of their voxels. */
-void
-KeepVolumes(const std::vector<double> & voxelVolumes,
-            double voxelEdge,
-            const Lattice & labels,
-            const FCCLabelWeights & weights,
-            LabelTopology & topology)
-{
-  const double layerOfOffset = 0.5 * voxelEdge; // an offset of a weight moves a wall half as far, in voxels
-  LabelVolumes volumes(voxelVolumes);
-  std::vector<double> offsets(voxelVolumes.size());
-  bool isSettled = false;
-  for (unsigned int n = 0; n < MostVolumeCorrections && !isSettled; ++n)
-  {
-    const auto filter = FCCLabelSurfaceFilter::New();
-    filter->SetInput(&labels);
-    filter->SetWeights(&weights);
-    filter->Update();
-    std::vector<double> steps = volumes.FindLayers(*filter->GetOutput(), [&](std::size_t label, double layer) {
-      const double offset = std::clamp(offsets[label] + layer / layerOfOffset, -FarthestOffset, FarthestOffset);
-      return layerOfOffset * (offset - offsets[label]);
-    });
-    isSettled = true;
-    for (std::size_t label = 1; label < offsets.size(); ++label)
-    {
-      steps[label] /= layerOfOffset;
-      offsets[label] += steps[label];
-      isSettled = isSettled && std::abs(steps[label]) < SettledOffset;
-    }
-    topology.AddOffsets(std::move(steps));
-  }
-}
-
 } // namespace
 
 void
@@ -548,7 +511,12 @@ LabelsToFCCFilter::GenerateData()
   LabelTopology topology(*labels, *weights, m_Groups);
   topology.Assign(std::move(candidates));
   m_VoxelVolumes = ComputeVoxelVolumes(image, origins);
-  KeepVolumes(m_VoxelVolumes, rhombic::MeanSpacingOf(map.GetGrid()), *labels, *weights, topology);
+  LabelsToKeep keep{ m_VoxelVolumes, std::vector<ImageRegion<3>>(m_VoxelVolumes.size()) };
+  for (const LabelInBox & box : boxes)
+  {
+    keep.sites[box.label] = box.sites;
+  }
+  KeepLabelVolumes(keep, rhombic::MeanSpacingOf(map.GetGrid()), *labels, *weights, topology);
   this->GetOutput()->Graft(labels);
   this->GetWeights()->Swap(*weights);
   progress.Finish();
