@@ -43,7 +43,7 @@ MeasureExtracted(const itk::TriangleSurface & surface);
 void
 MeasureFinished(const Scan * scan, MeshedSurface & surface);
 
-/** The known values of a surface, by column. */
+/** The known values of a surface, by column; of a label near a part of its map the volume of its voxels. */
 Report
 ReportMeasures(const MeshedSurface & surface);
 

@@ -73,6 +73,7 @@ struct SurfaceMaking
   const SurfaceFinish & finish; ///< of each surface; combined with that of its request
   SurfaceUse use;
   const Events & events;
+  std::optional<itk::ImageRegion<3>> part = std::nullopt; ///< of the label map: see LabelSurfaceSettings::part
 };
 
 /** Extracts isosurfaces and labels, in this order. Walls between labels are refined here, once for both sides. The
@@ -82,7 +83,8 @@ struct SurfaceMaking
 std::vector<MeshedSurface>
 ExtractSource(const SurfaceMaking & making, const LoadedSource & loaded, bool computesNormals = true);
 
-/** Removes parts of a surface, and refines or smooths it. Returns whether anything is left; notes say if not. */
+/** Removes parts of a surface, and refines or smooths it. Returns whether anything is left; notes say if not. A label
+ * near a part of its map stays as it is. */
 bool
 FinishSurface(const SurfaceMaking & making, MeshedSurface & surface);
 

@@ -332,6 +332,10 @@ MeasureFinished(const Scan * scan, MeshedSurface & surface)
 Report
 ReportMeasures(const MeshedSurface & surface)
 {
+  if (surface.label && surface.label->isPart)
+  {
+    return { { "voxel_volume_ml", surface.label->voxelMillilitres } };
+  }
   Report report;
   for (const MeasureColumn & column : GetMeasureColumns())
   {

@@ -82,8 +82,10 @@ AddLabels(const SurfaceMaking & making, const LoadedSource & loaded, std::vector
   }
   SurfaceFinish smoothing;
   smoothing.smoothing = making.finish.smoothing;
-  LabelMesh mesh = LabelsToWalls(
-    *loaded.labels, { making.selection.labels->labels, lattice.density, lattice.maximumMemory }, making.events);
+  LabelMesh mesh =
+    LabelsToWalls(*loaded.labels,
+                  { making.selection.labels->labels, lattice.density, lattice.maximumMemory, making.part },
+                  making.events);
   const bool isMeasured =
     isForFiles || smoothing.smoothing.IsNothing(); // else the surfaces would be extracted for it alone
   std::vector<std::optional<ExtractedSize>> extracted(mesh.labels.size());
@@ -154,6 +156,10 @@ ExtractSource(const SurfaceMaking & making, const LoadedSource & loaded, bool co
 bool
 FinishSurface(const SurfaceMaking & making, MeshedSurface & surface)
 {
+  if (surface.label && surface.label->isPart)
+  {
+    return true;
+  }
   const std::string & name = surface.scene.name;
   const SurfaceFinish finish = surface.request ? CombineFinish(surface.request->finish, making.finish) : making.finish;
   const auto finished = itk::TriangleSurface::New();

@@ -35,10 +35,14 @@ ToReport(const EnclosedParts & parts)
            { "keptPartsCutBySides", parts.numberCutBySides } };
 }
 
-/** A label's voxels and pieces, beside its surface's. */
+/** A label's voxels and pieces, beside its surface's as far as that is measured. */
 Report
 ToReport(const LabelSurface & surface)
 {
+  if (surface.isPart)
+  {
+    return { { "voxels", surface.numberOfVoxels } };
+  }
   return { { "voxels", surface.numberOfVoxels },
            { "volumeDifferenceInPercent", 100.0 * surface.GetVolumeDifference() },
            { "pieces", surface.pieces },

@@ -1,6 +1,7 @@
 #include "rhombicPictureSteps.h"
 
 #include "rhombicScanReader.h"
+#include "rhombicSlicePart.h"
 #include "rhombicFailure.h"
 #include "rhombicGreyWindow.h"
 #include "rhombicLabelTable.h"
@@ -58,11 +59,18 @@ DescribeExamination(const Scan & scan, bool isLabelMap)
   return modality + (part.empty() ? "" : " " + part);
 }
 
-/** Measures a finished surface, and adds it. */
+/** Measures a finished surface, or the voxels of a label near a part of its map, and adds it. */
 void
 AddSurface(MeshedSurface & surface, PictureScene & scene)
 {
-  MeasureFinished(scene.scan ? &*scene.scan : nullptr, surface);
+  if (surface.label && surface.label->isPart)
+  {
+    surface.measures.volume = surface.label->voxelMillilitres * CubicMillimetresPerMl;
+  }
+  else
+  {
+    MeasureFinished(scene.scan ? &*scene.scan : nullptr, surface);
+  }
   const SurfaceMeasures & measures = surface.measures;
   scene.surfaces.push_back(surface.scene);
   std::string name = surface.scene.name;
@@ -140,10 +148,16 @@ AddSurfaces(std::vector<MeshedSurface> & surfaces, bool hasThresholds, PictureSc
 }
 
 PictureScene
-MakeSceneOfScan(const PictureSource & source, std::optional<SourceVolume> volume, bool keepsScan, const Events & events)
+MakeSceneOfScan(const PictureSource & source,
+                std::optional<SourceVolume> volume,
+                bool keepsScan,
+                const std::vector<PlaneRequest> & onlySlices,
+                const Events & events)
 {
   LoadedSource loaded = LoadSource(source.scan, source.surfaces, std::move(volume), events);
   PictureScene scene;
+  SlicePart part = FindSlicePart(onlySlices, source, loaded);
+  scene.places = std::move(part.places);
   scene.report = ReportSource(loaded, source.scan);
   scene.report["surfaces"] = Report::array();
   AddFacts(loaded, source, scene);
@@ -158,7 +172,7 @@ MakeSceneOfScan(const PictureSource & source, std::optional<SourceVolume> volume
     scene.unit = IsInHounsfieldUnits(*scene.scan) ? "HU" : ReadDicomExamination(*scene.scan).units;
   }
   loaded.scan.reset(); // frees memory for the surfaces
-  const SurfaceMaking making{ source.scan, source.surfaces, source.finish, SurfaceUse::Pictures, events };
+  const SurfaceMaking making{ source.scan, source.surfaces, source.finish, SurfaceUse::Pictures, events, part.voxels };
   std::vector<MeshedSurface> surfaces = ExtractSource(making, loaded);
   std::optional<Scan> greys; // of a lattice volume, whose samples are no voxels: nothing is measured in them
   if (isLattice && keepsScan)
@@ -237,10 +251,12 @@ PictureScene
 MakePictureScene(const PictureSource & source,
                  std::optional<SourceVolume> volume,
                  bool keepsScan,
-                 const Events & events)
+                 const Events & events,
+                 const std::vector<PlaneRequest> & onlySlices)
 {
-  PictureScene scene = source.surfaceFiles.empty() ? MakeSceneOfScan(source, std::move(volume), keepsScan, events)
-                                                   : MakeSceneOfFiles(source, events);
+  PictureScene scene = source.surfaceFiles.empty()
+                         ? MakeSceneOfScan(source, std::move(volume), keepsScan, onlySlices, events)
+                         : MakeSceneOfFiles(source, events);
   for (SceneSurface & surface : scene.surfaces)
   {
     surface.isGlossy = IsGlossy(source.surfaces.rules.rules, surface.name);

@@ -7,6 +7,7 @@
 #include "rhombicSheet.h"
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,16 +32,21 @@ struct PictureScene
   std::string unit;            ///< of the scan's values: "HU", "Bq/ml"; empty if unknown
   std::vector<std::string> facts; ///< "scan: DICOM CT, 512 x 512 x 138, ...", and so on
   Report report;
+
+  /** Of planes, by PlaneRequest::place, if they are not found from the surfaces. */
+  std::map<std::string, Vector3> places;
 };
 
 /** Reads a source, and makes its surfaces. Throws Failure.
  * \param volume the scan's volume, if the caller has read the scan already
- * \param keepsScan whether the scan is needed after that */
+ * \param keepsScan whether the scan is needed after that
+ * \param onlySlices if not empty, the scene is for these alone, and surfaces of labels may be missing elsewhere */
 PictureScene
 MakePictureScene(const PictureSource & source,
                  std::optional<SourceVolume> volume,
                  bool keepsScan,
-                 const Events & events);
+                 const Events & events,
+                 const std::vector<PlaneRequest> & onlySlices = {});
 
 /** The surfaces as they are drawn in views: those without normals, as of STL files, get normals for shading. */
 std::vector<SceneSurface>

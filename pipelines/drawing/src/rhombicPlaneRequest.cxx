@@ -181,6 +181,10 @@ PlacesInLightbox(const PlaneRequest & request, const SliceSettings & settings, c
 Vector3
 FindPlace(const PlaneRequest & request, const PictureScene & scene)
 {
+  if (const auto found = scene.places.find(request.place); found != scene.places.end())
+  {
+    return found->second;
+  }
   if (request.place.empty())
   {
     return CentreOf(BoxAround(scene.surfaces));

@@ -618,13 +618,18 @@ RenderScan(const RenderScanSettings & given, const Events & events, std::optiona
                 "All pictures together",
                 "choose a smaller --size, or fewer of them");
   const bool needsScan = !settings.cuts.empty() || !settings.planes.empty() || !settings.slices.empty();
-  PictureScene scene = MakePictureScene(SourceOf(settings), std::move(volume), needsScan, events);
+  const bool drawsSlicesAlone = !drawsViews && settings.slice.lightbox == 0;
+  PictureScene scene = MakePictureScene(SourceOf(settings),
+                                        std::move(volume),
+                                        needsScan,
+                                        events,
+                                        drawsSlicesAlone ? settings.slices : std::vector<PlaneRequest>());
   events.Progress("rendering", 0.0);
   const std::vector<ClipPlane> cuts = ClipPlanesOf(settings, scene);
-  OpenEnclosing(settings.source.surfaces, cuts, scene, events);
   std::vector<Picture> pictures;
   if (drawsViews)
   {
+    OpenEnclosing(settings.source.surfaces, cuts, scene, events);
     PictureScene seen = scene;
     ShowFocus(cuts, settings, seen, events);
     pictures = DrawViews(settings, seen, cuts, *renderer);

@@ -7,6 +7,7 @@
 #include "itkMultiThreaderBase.h"
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleSurfaceTopology.h"
+#include "itkTriangleTree.h"
 
 #include <gtest/gtest.h>
 
@@ -880,6 +881,55 @@ TEST(LabelSurfaces, LayersShareALimitOfTriangles)
   {
     EXPECT_TRUE(ComputeTriangleSurfaceTopology(*label.scene.surface).IsWatertight());
   }
+}
+
+TEST(LabelSurfaces, OfAPartOfTheMapAreThoseOfTheWholeMap)
+{
+  // Two halves of a body as long as a patient, and a ball far from the part.
+  const LabelMap map = MakeMap({ { 52, 52, 140 } }, Vector(1.0), [](const Point & point) {
+    const double radius = 14.0 + 3.0 * std::sin(point[2] / 5.0) + 2.0 * std::cos(point[1] / 3.0);
+    const bool isInBody = std::hypot(point[0], point[1]) < radius && std::abs(point[2]) < 66.0;
+    const bool isInBall = (point - At(19.0, 19.0, -60.0)).GetNorm() < 4.0;
+    return isInBall ? 3 : !isInBody ? 0 : point[0] + 2.0 * std::sin(point[2] / 4.0) < 0.0 ? 1 : 2;
+  });
+  rhombic::LabelSurfaceSettings settings;
+  settings.part = itk::ImageRegion<3>({ { 0, 0, 73 } }, { { 52, 52, 1 } });
+  const auto whole = MakeSurfaces(map, {}, {});
+  const auto part = MakeSurfaces(map, settings, {});
+  ASSERT_EQ(part.size(), 3);
+  for (std::size_t n = 0; n < 3; ++n)
+  {
+    EXPECT_TRUE(part[n].isPart);
+    EXPECT_FALSE(whole[n].isPart);
+    EXPECT_EQ(part[n].scene.name, whole[n].scene.name);
+    EXPECT_EQ(part[n].voxelMillilitres, whole[n].voxelMillilitres);
+    const itk::TriangleSurface & surface = *part[n].scene.surface;
+    EXPECT_LT(surface.GetNumberOfTriangles(), whole[n].scene.surface->GetNumberOfTriangles() / 3);
+    const itk::TriangleTree tree(*whole[n].scene.surface);
+    for (const auto & point : surface.GetPoints())
+    {
+      if (std::abs(point[2] - 3.5) < 1.5)
+      {
+        EXPECT_LT(std::sqrt(tree.FindClosestPoint({ point[0], point[1], point[2] }).squaredDistance), 0.05);
+      }
+    }
+  }
+  EXPECT_EQ(part[2].scene.surface->GetNumberOfTriangles(), 0);
+}
+
+TEST(LabelSurfaces, VoxelsOfLabelsHavePlaces)
+{
+  const LabelMap map = MakeMap(12, [](const Point & point) { return point[0] < 0.0 ? 0 : point[2] < 2.0 ? 4 : 9; });
+  const auto found = rhombic::FindLabelVoxels(map, {});
+  ASSERT_EQ(found.size(), 2);
+  EXPECT_EQ(found[0].name, "label 4");
+  EXPECT_EQ(found[0].count, 6 * 12 * 8);
+  EXPECT_EQ(found[0].region, itk::ImageRegion<3>({ { 6, 0, 0 } }, { { 6, 12, 8 } }));
+  EXPECT_EQ(found[0].centroid[0], 8.5);
+  EXPECT_EQ(found[0].centroid[1], 5.5);
+  EXPECT_EQ(found[0].centroid[2], 3.5);
+  EXPECT_EQ(found[1].region, itk::ImageRegion<3>({ { 6, 0, 8 } }, { { 6, 12, 4 } }));
+  EXPECT_THROW(rhombic::FindLabelVoxels(map, { "label 5" }), rhombic::Failure);
 }
 
 } // namespace

@@ -6,11 +6,14 @@
 #include "rhombicSceneSurface.h"
 #include "rhombicSurfaceFinish.h"
 
+#include "itkContinuousIndex.h"
 #include "itkFCCLattice.h"
+#include "itkImageRegion.h"
 #include "itkLabelWalls.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +30,11 @@ struct LabelSurfaceSettings
     labels; ///< names with wildcards (see MatchesPattern()), or values; empty: all that the label table shows
   double density = itk::FCCLattice::DefaultDensity; ///< lattice sites per voxel
   std::uintmax_t maximumMemory = 0;                 ///< bytes; 0: half of what is free
+
+  /** The voxels in which walls are needed, as those that a slice passes: there the walls are those of the whole map to
+   * within some hundredths of a voxel; farther away they are missing. Nothing: all voxels. Without effect on
+   * probabilities. */
+  std::optional<itk::ImageRegion<3>> part = std::nullopt;
 };
 
 /** A label and its surface, in the label's name, colour and opacity, and how it compares with the label's voxels. */
@@ -41,6 +49,7 @@ struct LabelSurface
   std::size_t pieces = 0;          ///< pieces of the label: voxels connected through faces, edges or corners
   std::size_t surfacePieces = 0;   ///< pieces of the surface: closed shells of positive volume
   bool isTorn = false; ///< more pieces than the label has, even than its voxels connected through faces alone
+  bool isPart = false; ///< whether walls are missing (LabelSurfaceSettings::part): nothing of the surface is measured
 
   /** The relative difference between the volumes of surface and voxels. */
   double
@@ -58,6 +67,19 @@ struct LabelMesh
   std::vector<itk::LabelWalls::Pointer> walls;
   std::vector<LabelSurface> labels; ///< in the order of their values
 };
+
+/** The voxels of a label. */
+struct LabelVoxels
+{
+  std::string name;
+  std::size_t count = 0;
+  itk::ImageRegion<3> region;
+  itk::ContinuousIndex<double, 3> centroid;
+};
+
+/** Where labels lie, in the order of their values. \a labels and what is thrown for them: as LabelsToWalls() */
+std::vector<LabelVoxels>
+FindLabelVoxels(const LabelMap & map, const std::vector<std::string> & labels);
 
 /** The walls between labels, and between them and all else, without the steps of the voxels: labels that touch share
  * their wall. Labels that overlap are in layers, each of which has its own walls. The surfaces of the labels are set by

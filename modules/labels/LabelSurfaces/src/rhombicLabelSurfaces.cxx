@@ -32,6 +32,9 @@ using LabelImage = NumberImage;
 
 constexpr itk::SizeValueType BoxMargin = 12; // voxels around labels, beyond which they have no effect on walls
 
+constexpr itk::SizeValueType PartMargin = 12; // voxels around a part of a map, beyond which they hardly have an effect
+                                              // on the walls in it
+
 /** Throws Failure(Usage) for a density that is not above 0 and at most 64. */
 void
 CheckLabelDensity(double density)
@@ -241,9 +244,9 @@ SetNormals(itk::TriangleSurface & surface)
   }
 }
 
-/** Sets the volumes and pieces of the labels of a layer. */
+/** Sets the volumes and pieces of the labels of the last layer, as far as it has all of their walls. */
 void
-MeasureLabels(const LabelPieces & pieces, std::size_t layer, LabelMesh & mesh)
+MeasureLabels(const LabelPieces & pieces, bool isPart, LabelMesh & mesh)
 {
   ForEachOnThreads(mesh.labels.size(), [&](std::size_t n) {
     if (pieces.counts[n + 1] == 0)
@@ -251,16 +254,44 @@ MeasureLabels(const LabelPieces & pieces, std::size_t layer, LabelMesh & mesh)
       return;
     }
     LabelSurface & label = mesh.labels[n];
-    const auto surface = mesh.walls[layer]->ExtractLabel(static_cast<itk::LabelWalls::LabelType>(n + 1));
+    label.layer = mesh.walls.size() - 1;
+    label.isPart = isPart;
+    if (isPart)
+    {
+      return;
+    }
+    const auto surface = mesh.walls.back()->ExtractLabel(static_cast<itk::LabelWalls::LabelType>(n + 1));
     const auto volumes =
       itk::ComputeTriangleSurfaceComponentVolumes(*surface, itk::FindTriangleSurfaceComponents(*surface));
-    label.layer = layer;
     label.surfaceMillilitres = std::accumulate(volumes.begin(), volumes.end(), 0.0) / CubicMillimetresPerMl;
     label.surfacePieces = static_cast<std::size_t>(
       std::count_if(volumes.begin(), volumes.end(), [](double volume) { return volume > 0.0; }));
     label.pieces = pieces.counts[n + 1];
     label.isTorn = label.surfacePieces > label.pieces && label.surfacePieces > pieces.countsByFace[n + 1];
   });
+}
+
+bool
+HasLabels(const LabelImage & numbers)
+{
+  const std::uint16_t * const begin = numbers.GetBufferPointer();
+  const std::uint16_t * const end = begin + numbers.GetBufferedRegion().GetNumberOfPixels();
+  return std::any_of(begin, end, [](std::uint16_t number) { return number != 0; });
+}
+
+/** The voxels of a box of a map that have an effect on the walls in a part of the map, or null if no label is there. */
+LabelImage::Pointer
+CropToPart(const LabelImage & numbers, const itk::ImageRegion<3> & box, const itk::ImageRegion<3> & part)
+{
+  itk::ImageRegion<3> near = part;
+  near.PadByRadius(PartMargin);
+  if (!near.Crop(box))
+  {
+    return nullptr;
+  }
+  near.SetIndex(numbers.GetBufferedRegion().GetIndex() + (near.GetIndex() - box.GetIndex()));
+  const LabelImage::Pointer cropped = Crop(numbers, near);
+  return HasLabels(*cropped) ? cropped : nullptr;
 }
 
 /** Adds the walls of the labels in one layer, if it has any of them. */
@@ -273,9 +304,7 @@ AddLayer(const LabelMap & map,
          LabelMesh & mesh)
 {
   LabelImage::Pointer numbers = NumberLabels(layer, labels);
-  const std::uint16_t * const begin = numbers->GetBufferPointer();
-  const std::uint16_t * const end = begin + numbers->GetBufferedRegion().GetNumberOfPixels();
-  if (!map.scan.furtherLayers.empty() && std::all_of(begin, end, [](std::uint16_t number) { return number == 0; }))
+  if (!map.scan.furtherLayers.empty() && !HasLabels(*numbers))
   {
     return;
   }
@@ -284,9 +313,12 @@ AddLayer(const LabelMap & map,
   box.Crop(numbers->GetBufferedRegion());
   numbers = Crop(*numbers, box);
   const LabelPieces pieces = NumberPieces(*numbers, labels.size() + 1);
-  mesh.walls.push_back(map.probabilities.empty() ? WallsOfVoxels(*numbers, pieces, map.scan, settings, events)
-                                                 : WallsOfProbabilities(map, *numbers, labels, settings, events));
-  MeasureLabels(pieces, mesh.walls.size() - 1, mesh);
+  const bool isPart = settings.part && map.probabilities.empty();
+  const LabelImage::Pointer needed = isPart ? CropToPart(*numbers, box, *settings.part) : numbers;
+  mesh.walls.push_back(!needed                     ? itk::LabelWalls::New()
+                       : map.probabilities.empty() ? WallsOfVoxels(*needed, pieces, map.scan, settings, events)
+                                                   : WallsOfProbabilities(map, *needed, labels, settings, events));
+  MeasureLabels(pieces, isPart, mesh);
 }
 
 /** Notes a torn surface, and a volume that differs by more than 1 %. */
@@ -323,10 +355,12 @@ LabelsToWalls(const LabelMap & map, const LabelSurfaceSettings & settings, const
   {
     AddLayer(map, layer, labels, settings, events, mesh);
   }
-  if (map.probabilities.empty()) // which have no volumes and pieces to keep
+  for (const LabelSurface & label : mesh.labels)
   {
-    std::for_each(
-      mesh.labels.begin(), mesh.labels.end(), [&](const LabelSurface & label) { NoteShortcomings(label, events); });
+    if (map.probabilities.empty() && !label.isPart) // else there are no volumes and pieces to keep
+    {
+      NoteShortcomings(label, events);
+    }
   }
   events.Progress("extracting labels", 1.0);
   return mesh;
