@@ -103,7 +103,7 @@ VoxelsInPlane(const Grid & grid, std::size_t patientAxis, double coordinate)
     constexpr double parallel = 1e-9; // mm
     if (std::abs(steps[axis]) > parallel)
     {
-      const auto [begin, end] = std::minmax(lowest / steps[axis], highest / steps[axis]);
+      const auto [begin, end] = std::minmax({ lowest / steps[axis], highest / steps[axis] });
       const auto last = static_cast<double>(whole.GetSize(axis) - 1);
       const auto low = static_cast<itk::IndexValueType>(std::clamp(std::floor(begin), 0.0, last));
       const auto high = static_cast<itk::IndexValueType>(std::clamp(std::ceil(end), 0.0, last));
