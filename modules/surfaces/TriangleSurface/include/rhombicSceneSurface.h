@@ -19,7 +19,7 @@ struct SceneSurface
   std::string name; ///< in messages and files
   itk::TriangleSurface::ConstPointer surface;
   Colour colour{ 0.8, 0.8, 0.8 };
-  double opacity = 1.0;   ///< above 0, at most 1: share of the background that one wall hides where it is seen face on
+  double opacity = 1.0;   ///< above 0, at most 1: share of the background that the near wall of a ball hides on average
   bool isGlossy = false;  ///< shines as if it were wet; matte otherwise
   std::int32_t label = 0; ///< of the region in its label map; 0 for surfaces of no label
 };
