@@ -47,14 +47,13 @@ WordsOfBodyPart(const std::string & term)
   return found != words.end() ? found->second : LowerCase(term);
 }
 
-/** What a title says of a scan: its modality, and the part of the body if DICOM names one. */
+/** What a title says of a scan: its modality, CT also of values that are taken for HU, and the part of the body if
+ * DICOM names one. */
 std::string
 DescribeExamination(const Scan & scan, bool isLabelMap)
 {
-  const std::string modality = isLabelMap              ? "Segmentation"
-                               : scan.modality.empty() ? "Scan"
-                               : scan.modality == "PT" ? "PET"
-                                                       : scan.modality;
+  const std::string known = scan.modality.empty() && !isLabelMap && IsInHounsfieldUnits(scan) ? "CT" : scan.modality;
+  const std::string modality = isLabelMap ? "Segmentation" : known.empty() ? "Scan" : known == "PT" ? "PET" : known;
   const std::string part = WordsOfBodyPart(ReadDicomExamination(scan).bodyPart);
   return modality + (part.empty() ? "" : " " + part);
 }
