@@ -175,8 +175,9 @@ SmoothSheets(const TriangleSurface & surface,
   Filter(neighbours, coefficients, heights, progress);
   moves.MoveTowards(
     [&](SizeValueType point) {
-      const double back = strata.strata[point] == Stratum::Fixed ? 0.0 : -heights[point][0];
-      return BoundedMoves::Move(start[point], 1.0, Along(ToPosition(ways[point]), ToPosition(normals[point]), back));
+      const PositionType way =
+        Along(ToPosition(ways[point]), ToPosition(normals[point]), -static_cast<double>(heights[point][0]));
+      return strata.strata[point] == Stratum::Fixed ? start[point] : BoundedMoves::Move(start[point], 1.0, way);
     },
     progress);
 }
