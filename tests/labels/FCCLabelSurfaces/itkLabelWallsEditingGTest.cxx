@@ -359,8 +359,8 @@ TEST(LabelWallsEditing, ThinTubesBecomeRoundAndKeepTheirRadius)
   ExpectSoundWalls(*walls, *tube);
   EXPECT_NEAR(radii(*walls)[0], radii(*start)[0], 0.1);
   EXPECT_LT(radii(*walls)[1], 0.5 * radii(*start)[1]);
-  EXPECT_LT(ComputeTriangleSurfaceBending(*walls), 0.7 * ComputeTriangleSurfaceBending(*start));
-  EXPECT_NEAR(walls->ComputeVolumes()[1], start->ComputeVolumes()[1], 1e-3 * start->ComputeVolumes()[1]);
+  EXPECT_LT(ComputeTriangleSurfaceBending(*walls), 0.8 * ComputeTriangleSurfaceBending(*start));
+  EXPECT_NEAR(walls->ComputeVolumes()[1], start->ComputeVolumes()[1], 3e-3 * start->ComputeVolumes()[1]);
 }
 
 TEST(LabelWallsEditing, PointsStayInTheEllipsoidOfTheHalfAxes)
@@ -437,7 +437,7 @@ TEST(LabelWallsEditing, RelaxedWallsNeedFewerTriangles)
       const auto ofCut = SimplifyLabelWalls(*cut, ErrorUpTo(error));
       const auto ofRelaxed = SimplifyLabelWalls(*relaxed, ErrorUpTo(error));
       EXPECT_EQ(ofRelaxed.end, itk::SimplificationEnd::MaximumError);
-      EXPECT_LT(ofRelaxed.trianglesAfter, 2 * ofCut.trianglesAfter / 3);
+      EXPECT_LT(ofRelaxed.trianglesAfter, 3 * ofCut.trianglesAfter / 4);
     }
   }
 }
