@@ -10,17 +10,17 @@ namespace itk
 
 /** Smooths walls, and keeps the volume of each label. Walls pass a low-pass filter (a windowed sinc of degree
  * iterations, after Taubin, Zhang and Golub, ECCV 1996), which keeps waves that are longer than about iterations / 2
- * edges: pits, steps of slices and bumps go, and tubes keep their radius. The curves where walls meet are filtered along
- * themselves. Then walls and their curves move along their normals until each label has its volume again, or the volume
- * that \a volumes gives: no label lacks a layer thicker than a thousandth of the largest move in the direction in which
- * it is least. Points where curves meet or walls touch stay.
+ * edges: pits, steps of slices and bumps go, and tubes keep their radius. The curves where walls meet are filtered
+ * along themselves. Then walls and their curves move along their normals until each label has its volume again, or the
+ * volume that \a volumes gives: no label lacks a layer thicker than a thousandth of the largest move in the direction
+ * in which it is least. Points where curves meet or walls touch stay.
  *
  * No point moves farther than maximumMove from where it is at the call, or out of the ellipsoid of halfAxes. Where
  * triangles would turn by 155 degrees or more, lose more than 99 hundredths of their area, or meet others elsewhere
  * than at shared corners and sides, points move less, and those around them a little less. The report is of all moves
  * together. So the walls of each label stay a closed, oriented manifold without crossings, if they were. Labels of
- * which all points are as far as they may go can have another volume. Throws ExceptionObject as Verify() of the settings
- * does. The same bytes for any number of threads.
+ * which all points are as far as they may go can have another volume. Throws ExceptionObject as Verify() of the
+ * settings does. The same bytes for any number of threads.
  *
  * \param volumes by label in mm^3, such as LabelsToFCCFilter::GetVoxelVolumes(); labels without a volume, or with 0,
  * keep their own

@@ -86,11 +86,11 @@ FindLabelVoxels(const LabelMap & map, const std::vector<std::string> & labels);
  * ExtractSurfaces().
  *
  * The walls are those of itk::LabelsToFCCFilter and itk::FCCLabelSurfaceFilter, smoothed by itk::RelaxLabelWalls().
- * It moves points within an ellipsoid whose half axes are the edges of a voxel: a pixel in plane, a slice along. So what
- * a hand on thick slices leaves behind goes, notches and steps; vessels and sheets stay. Labels above 1 ml have the
- * volume of their voxels within 0.1 %. Pieces of a
- * label that do not touch are not joined. Where the map has probabilities, the walls are those of
- * itk::ProbabilitiesToFCCFilter instead, as they are: labels that are not chosen have walls to the others all the same.
+ * It moves points within an ellipsoid whose half axes are the edges of a voxel: a pixel in plane, a slice along. So
+ * what a hand on thick slices leaves behind goes, notches and steps; vessels and sheets stay. Labels above 1 ml have
+ * the volume of their voxels within 0.1 %. Pieces of a label that do not touch are not joined. Where the map has
+ * probabilities, the walls are those of itk::ProbabilitiesToFCCFilter instead, as they are: labels that are not chosen
+ * have walls to the others all the same.
  *
  * Where a label reaches the scan's border, its surface closes at the outer faces of the voxels there. A hollow label
  * has shells inside, too. Slices may be tilted, sheared or unevenly spaced. The result has the same bytes for any
@@ -103,9 +103,9 @@ LabelMesh
 LabelsToWalls(const LabelMap & map, const LabelSurfaceSettings & settings, const Events & events);
 
 /** Smooths and simplifies the walls as \a finish says, once for both labels of each wall, so that labels that touch
- * still share it (itk::RelaxLabelWalls(), itk::SimplifyLabelWalls()). That is beyond what LabelsToWalls() smooths. A limit of triangles is one for all walls
- * together, of which each layer gets a share by its triangles, at least one. Removes no parts. Notes give the results,
- * of which there is one for each layer.
+ * still share it (itk::RelaxLabelWalls(), itk::SimplifyLabelWalls()). That is beyond what LabelsToWalls() smooths. A
+ * limit of triangles is one for all walls together, of which each layer gets a share by its triangles, at least one.
+ * Removes no parts. Notes give the results, of which there is one for each layer.
  *
  * \param spacing of the voxels in mm */
 std::vector<Refinement>

@@ -98,22 +98,30 @@ EstimateMemory(const LabelImage & labels, TFilter & filter, double density)
 }
 
 /** How the walls of a label map are smoothed: no point leaves the ellipsoid around it whose half axes are the edges of
- * a voxel, as far as a border that is drawn by hand may be off. The thicker slices are beside a pixel, the longer are
- * the waves that are noise. */
+ * a voxel, as far as a border that is drawn by hand on thick slices may be off. Borders in nearly cubic voxels fit to
+ * each other in all three directions, and move by less. The thicker slices are beside a pixel, the longer are the waves
+ * that are noise. */
 itk::TriangleSurfaceSmoothingSettings
 RelaxationByVoxels(const itk::ImageBase<3> & grid)
 {
+  constexpr double shareOfCubes = 0.3; // of an edge
+  constexpr double iterationsOfCubes = 6.0;
+  constexpr double iterationsOfThickSlices = 40.0;
+  constexpr double thick = 3.0; // times a pixel
+  const auto & spacing = grid.GetSpacing();
+  const auto [shortest, longest] = std::minmax({ spacing[0], spacing[1], spacing[2] });
+  const double thickness = std::min(1.0, (longest / shortest - 1.0) / (thick - 1.0)); // 0: a cube
+  const double share = shareOfCubes + (1.0 - shareOfCubes) * thickness;
   itk::TriangleSurfaceSmoothingSettings settings;
   auto & edges = settings.halfAxes.emplace();
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
     const auto step = StepAlong(grid, axis);
-    edges[axis] = { step[0], step[1], step[2] };
+    edges[axis] = { share * step[0], share * step[1], share * step[2] };
   }
-  const auto & spacing = grid.GetSpacing();
-  const auto [shortest, longest] = std::minmax({ spacing[0], spacing[1], spacing[2] });
-  settings.iterations = static_cast<unsigned int>(std::min(40.0, 20.0 * std::sqrt(longest / shortest)));
-  settings.maximumMove = longest;
+  settings.iterations =
+    static_cast<unsigned int>(iterationsOfCubes + (iterationsOfThickSlices - iterationsOfCubes) * thickness);
+  settings.maximumMove = share * longest;
   return settings;
 }
 

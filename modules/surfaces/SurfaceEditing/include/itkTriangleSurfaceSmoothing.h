@@ -41,10 +41,10 @@ struct TriangleSurfaceSmoothingReport
  *
  * Where three or more sheets meet in a curve, its points move towards the mean of their two neighbours on the curve.
  *
- * No point moves farther than maximumMove, or out of the ellipsoid of halfAxes. The points of a triangle that would turn by 80 degrees or more, or lose more
- * than nine tenths of its area, stay where they are. Points on open borders, where curves meet, and where
- * parts touch in one point, stay. Triangles keep their points and order. Normals, if there were any, are computed anew:
- * the triangles' normals weighted by the angle at the point.
+ * No point moves farther than maximumMove, or out of the ellipsoid of halfAxes. The points of a triangle that would
+ * turn by 80 degrees or more, or lose more than nine tenths of its area, stay where they are. Points on open borders,
+ * where curves meet, and where parts touch in one point, stay. Triangles keep their points and order. Normals, if there
+ * were any, are computed anew: the triangles' normals weighted by the angle at the point.
  *
  * At the end, the points of triangles that meet others elsewhere than at shared corners and sides are put back to their
  * start, until triangles only meet where they met at the start. So there are no new self-intersections.
