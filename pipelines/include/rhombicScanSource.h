@@ -6,6 +6,7 @@
 #include "rhombicScanReader.h"
 #include "rhombicScanToLattice.h"
 #include "rhombicSceneRules.h"
+#include "rhombicSceneSurface.h"
 #include "rhombicSurfaceRequest.h"
 #include "rhombicTableRemoval.h"
 
@@ -58,9 +59,9 @@ struct SurfaceSelection
   itk::FCCIsosurfaceMode mode = itk::FCCIsosurfaceMode::Lean;
 };
 
-/** Whether the opacity of a surface or label of this name was asked for, by its request or by a rule. */
+/** Whether the opacity of a surface was asked for: by a rule for its name, or by its request, if it is no label's. */
 bool
-HasOwnOpacity(const SurfaceSelection & selection, const std::string & name);
+HasOwnOpacity(const SurfaceSelection & selection, const SceneSurface & surface);
 
 /** Reads a scan, without notes. Throws Failure. */
 Scan

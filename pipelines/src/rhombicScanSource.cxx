@@ -216,16 +216,16 @@ PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & sel
 } // namespace
 
 bool
-HasOwnOpacity(const SurfaceSelection & selection, const std::string & name)
+HasOwnOpacity(const SurfaceSelection & selection, const SceneSurface & surface)
 {
   const auto & [requests, rules] = std::tie(selection.requests, selection.rules.rules);
-  return std::any_of(
-           requests.begin(),
-           requests.end(),
-           [&name](const SurfaceRequest & request) { return request.hasOwnOpacity && request.name == name; }) ||
-         std::any_of(rules.begin(), rules.end(), [&name](const SceneRule & rule) {
-           return rule.opacity && FitsPattern(rule.pattern, name);
-         });
+  const auto isRequested = [&surface](const SurfaceRequest & request) {
+    return surface.label == 0 && request.hasOwnOpacity && request.name == surface.name;
+  };
+  const auto isRuled = [&surface](const SceneRule & rule) {
+    return rule.opacity && FitsPattern(rule.pattern, surface.name);
+  };
+  return std::any_of(requests.begin(), requests.end(), isRequested) || std::any_of(rules.begin(), rules.end(), isRuled);
 }
 
 Scan

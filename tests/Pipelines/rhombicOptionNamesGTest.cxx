@@ -60,9 +60,10 @@ TEST(OptionNames, AreThoseOfFailuresOfModules)
   };
   EXPECT_EQ(finish(&rhombic::SurfaceFinish::minimumVolume),
             "The smallest volume of a part must be 0 ml or more; write --min-volume 0.5 for half a millilitre.");
-  EXPECT_EQ(finish(&rhombic::SurfaceFinish::smoothing),
-            "Smoothing moves points by 0 to 1 spacings of the lattice, or by a length; write --smooth 0.3 or 0.8mm, for "
-            "example.");
+  EXPECT_EQ(
+    finish(&rhombic::SurfaceFinish::smoothing),
+    "Smoothing moves points by 0 to 1 spacings of the lattice, or by a length; write --smooth 0.3 or 0.8mm, for "
+    "example.");
   EXPECT_EQ(finish(&rhombic::SurfaceFinish::share),
             "The share of triangles to keep must be above 0 and at most 100 %; write --max-triangles 10%.");
 }

@@ -164,13 +164,20 @@ TEST(SceneRules, OpacitiesThatWereAskedForAreKnown)
   selection.requests = { rhombic::ParseSurfaceRequest("bone=250.5,ivory,1", 0),
                          rhombic::ParseSurfaceRequest("head=100,ivory", 1) };
   selection.rules.rules = { rhombic::ParseSceneRule("liver=,1"), rhombic::ParseSceneRule("kidney*=red") };
-  for (const char * const name : { "bone", "liver" })
-  {
-    EXPECT_TRUE(rhombic::HasOwnOpacity(selection, name)) << name;
-  }
+  const auto hasOwnOpacity = [&selection](const std::string & name, std::int32_t label) {
+    rhombic::SceneSurface surface;
+    surface.name = name;
+    surface.label = label;
+    return rhombic::HasOwnOpacity(selection, surface);
+  };
+  EXPECT_TRUE(hasOwnOpacity("bone", 0));
+  EXPECT_TRUE(hasOwnOpacity("liver", 0));
+  EXPECT_TRUE(hasOwnOpacity("liver", 7));
+  EXPECT_FALSE(hasOwnOpacity("bone", 3)) << "a label in the isosurface of the same name";
   for (const char * const name : { "head", "kidney_left", "spleen" })
   {
-    EXPECT_FALSE(rhombic::HasOwnOpacity(selection, name)) << name;
+    EXPECT_FALSE(hasOwnOpacity(name, 0)) << name;
+    EXPECT_FALSE(hasOwnOpacity(name, 5)) << name;
   }
 }
 

@@ -31,7 +31,7 @@ IsNameOfCover(const std::string & name)
 bool
 Open(const SurfaceSelection & selection, double opacity, SceneSurface & surface)
 {
-  if (surface.opacity <= opacity || HasOwnOpacity(selection, surface.name))
+  if (surface.opacity <= opacity || HasOwnOpacity(selection, surface))
   {
     return false;
   }
