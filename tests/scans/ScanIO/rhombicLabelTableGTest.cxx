@@ -1,3 +1,4 @@
+#include "rhombicColour.h"
 #include "rhombicLabelTable.h"
 #include "rhombicLabelTableFormats.h"
 #include "rhombicScanTest.h"
@@ -704,18 +705,38 @@ TEST(AnatomicalColours, NamesHaveGroups)
   }
 }
 
+/** L*, a* and b* of CIELAB, for the white of sRGB (IEC 61966-2-1). */
+std::array<double, 3>
+LabOf(const Colour & colour)
+{
+  constexpr double rows[3][3] = { { 0.4339, 0.3762, 0.1899 }, { 0.2126, 0.7152, 0.0722 }, { 0.0177, 0.1095, 0.8728 } };
+  std::array<double, 3> roots{}; // of X, Y and Z as shares of the white's
+  for (std::size_t row = 0; row < 3; ++row)
+  {
+    double share = 0.0;
+    for (std::size_t channel = 0; channel < 3; ++channel)
+    {
+      share += rows[row][channel] * rhombic::SRGBToLinear(colour[channel] / 255.0);
+    }
+    roots[row] = share > 0.008856 ? std::cbrt(share) : 7.787 * share + 16.0 / 116.0;
+  }
+  return { 116.0 * roots[1] - 16.0, 500.0 * (roots[0] - roots[1]), 200.0 * (roots[1] - roots[2]) };
+}
+
 TEST(AnatomicalColours, OfUnknownNamesAreQuietAndDifferByValue)
 {
-  for (int a = -48; a < 64; ++a)
+  for (int a = 0; a < 112; ++a)
   {
     const Colour colour = AnatomicalColour("thing", a);
     EXPECT_EQ(colour, AnatomicalColour("", a));
-    const auto [lowest, highest] = std::minmax_element(colour.begin(), colour.end());
-    EXPECT_LE(*highest - *lowest, 125) << a; // of 255
-    for (int b = -48; b < a; ++b)
+    const std::array<double, 3> lab = LabOf(colour);
+    EXPECT_LE(std::hypot(lab[1], lab[2]), 45.0) << a; // chroma; that of sRGB's red is 104
+    for (int b = 0; b < a; ++b)
     {
-      const int least = a - b < 16 && (a & ~15) == (b & ~15) ? 60 : 1;
-      EXPECT_GE(Distance(AnatomicalColour("thing", a), AnatomicalColour("thing", b)), least) << a << " and " << b;
+      EXPECT_NE(colour, AnatomicalColour("thing", b)) << a << " and " << b;
+      const std::array<double, 3> other = LabOf(AnatomicalColour("thing", b));
+      const double difference = std::hypot(lab[0] - other[0], std::hypot(lab[1] - other[1], lab[2] - other[2]));
+      EXPECT_GE(a < 16 ? difference : 18.0, 18.0) << a << " and " << b; // 2 can just be seen
     }
   }
 }
