@@ -17,6 +17,7 @@ packages=(
 if [ "${1-}" = tests ]; then
   packages+=(chromium libgtest-dev dcm2niix dcmtk dicom3tools f3d doxygen dpkg-dev file help2man poppler-utils
              xauth xvfb)
+  command -v npm >/dev/null || packages+=(nodejs npm) # Debian's do not install beside others
 fi
 
 missing=()

@@ -1,6 +1,7 @@
 #include "rhombicCommands.h"
 #include "rhombicFailure.h"
 #include "rhombicPresets.h"
+#include "rhombicRenderPage.h"
 #include "rhombicRenderScan.h"
 #include "rhombicScanOptions.h"
 #include "rhombicSurfaceIO.h"
@@ -33,6 +34,8 @@ struct RenderOptions
   bool isLandscape = false;
   bool writesDicom = false;
   double pixelsPerInch = 200.0;
+  std::string largestPage = "8M";
+  bool hasNoSlices = false;
 
   std::string style;
   std::string size;
@@ -256,7 +259,7 @@ GetSliceSettings(const RenderOptions & options)
 
 /** Returns the files, or in a check those that would be written. */
 std::vector<MadeFile>
-RenderPage(const RenderOptions & options, const CommandContext & context)
+RenderSheetOf(const RenderOptions & options, const CommandContext & context)
 {
   RenderSheetSettings settings;
   settings.source = GetPictureSource(options);
@@ -288,7 +291,78 @@ RenderPage(const RenderOptions & options, const CommandContext & context)
   return RenderSheet(settings, context.console->MakeEvents(), std::move(volume));
 }
 
-/** As RenderPage(). */
+/** A number of bytes, as "8M" or "800k". Throws Failure(Usage). */
+std::uintmax_t
+ParseSizeOfPage(const std::string & text)
+{
+  const char last = text.empty() ? ' ' : text.back();
+  const double unit = last == 'M' ? 1e6 : last == 'k' ? 1e3 : 1.0;
+  const auto number = ToNumber<double>(text.substr(0, text.size() - (unit > 1.0 ? 1 : 0)));
+  if (!number || !(*number > 0.0) || *number * unit > 1e9)
+  {
+    throw Failure(FailureKind::Usage, "'" + text + "' is no size of a page; write it as 8M, 800k, or in bytes.");
+  }
+  return static_cast<std::uintmax_t>(*number * unit);
+}
+
+/** Throws Failure(Usage) for options that interactive pages do not have. */
+void
+CheckOptionsOfPage(const RenderOptions & options)
+{
+  const std::pair<bool, const char *> others[] = { { options.turntable > 0, "--turntable" },
+                                                   { options.lightbox > 0, "--lightbox" },
+                                                   { !options.cuts.empty(), "--cut" },
+                                                   { !options.planes.empty(), "--show-slice" },
+                                                   { !options.size.empty(), "--size" },
+                                                   { options.zoom != 1.0, "--zoom" },
+                                                   { options.pixelSize.has_value(), "--pixel-size" },
+                                                   { !options.focus.empty(), "--focus" },
+                                                   { options.isPerspective, "--perspective" },
+                                                   { !options.background.empty(), "--background" },
+                                                   { !options.style.empty(), "--style" },
+                                                   { options.isNeurological, "--neurological" } };
+  for (const auto & [isGiven, name] : others)
+  {
+    if (isGiven)
+    {
+      throw Failure(FailureKind::Usage,
+                    std::string(name) + " has no meaning for an interactive page (.html), whose reader turns, cuts and "
+                                        "enlarges it; leave it out, or name a picture.");
+    }
+  }
+}
+
+/** As RenderSheetOf(). */
+std::vector<MadeFile>
+RenderPageOf(const RenderOptions & options, const CommandContext & context)
+{
+  CheckOptionsOfPage(options);
+  RenderPageSettings settings;
+  settings.source = GetPictureSource(options);
+  settings.page = options.picture;
+  if (!options.views.empty())
+  {
+    settings.views = ParseViews(options);
+  }
+  settings.slices = ParseAll(options.slices, ParsePlaneRequest);
+  settings.slice = GetSliceSettings(options);
+  settings.title = options.title;
+  settings.hasSlices = !options.hasNoSlices;
+  settings.largestSize = ParseSizeOfPage(options.largestPage);
+  settings.writesDicom = options.writesDicom;
+  settings.thumbnail = options.thumbnail;
+  settings.provenance = options.scan.GetProvenance(*context.settings);
+  std::vector<MadeFile> planned;
+  AddOutputs(CheckRenderPage(settings), "", planned);
+  if (context.onlyChecks)
+  {
+    return planned;
+  }
+  auto volume = FinishSource(options, context, settings.slices, settings.source);
+  return RenderPage(settings, context.console->MakeEvents(), std::move(volume));
+}
+
+/** As RenderSheetOf(). */
 std::vector<MadeFile>
 RenderPictures(const RenderOptions & options, const CommandContext & context)
 {
@@ -454,7 +528,9 @@ Render(const RenderOptions & options, const CommandContext & context)
     throw Failure(FailureKind::Usage, "No picture is named; give one with -o, for example -o picture.png.");
   }
   CheckEnding(options);
-  std::vector<MadeFile> outputs = options.isSheet ? RenderPage(options, context) : RenderPictures(options, context);
+  std::vector<MadeFile> outputs = IsPagePath(options.picture) ? RenderPageOf(options, context)
+                                  : options.isSheet           ? RenderSheetOf(options, context)
+                                                              : RenderPictures(options, context);
   if (!context.onlyChecks)
   {
     NoteOutputs("picture", outputs, *context.console);
@@ -507,6 +583,11 @@ PictureTable()
       Checked(CLI::Range(36.0, 600.0)),
       ShowingDefault,
       Needs({ "--sheet" }) },
+    { "--page-size",
+      &RenderOptions::largestPage,
+      "of an interactive page (.html): surfaces and slices are simplified until it is so small",
+      ShowingDefault },
+    { "--no-slices", &RenderOptions::hasNoSlices, "of an interactive page: leave out the scan's slices" },
     { "--turntable",
       &RenderOptions::turntable,
       "so many views around the patient: one .gif, or numbered pictures",
@@ -610,7 +691,8 @@ AddTables(RenderOptions & options, CommandSettings & command)
     { "FILES", &RenderOptions::furtherFiles, "further surface files, if SCAN is one", OfKind(SettingKind::Source) },
     { "-o,--output",
       &RenderOptions::picture,
-      "the picture: .png, .jpg, .tif or .exr; .gif for a turntable, .pdf for a page",
+      "the picture: .png, .jpg, .tif or .exr; .gif for a turntable, .pdf for a page, .html for a page to turn and "
+      "scroll",
       OfKind(SettingKind::Output) },
   };
   command.Add(ScanOptions::SourceTable(), options.scan);

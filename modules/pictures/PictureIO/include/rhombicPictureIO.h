@@ -37,6 +37,11 @@ CheckPicturePath(const std::filesystem::path & path, int channels = 3);
 void
 WritePicture(const Picture & picture, const std::filesystem::path & path, const PictureMetadata & metadata);
 
+/** The bytes of a file as WritePicture() makes it, in a format that has one picture in memory: .png or .jpg, the
+ * \a extension. Throws Failure: Usage as WritePicture() does, Output when it can't be encoded. */
+std::string
+EncodePicture(const Picture & picture, const std::string & extension, const PictureMetadata & metadata);
+
 /** As WritePicture(). */
 void
 StagePicture(const Picture & picture,

@@ -54,6 +54,10 @@ DrawSlice(const Scan & scan,
           const GreyWindow & window,
           const SliceBackground & background = { 0, 0, 0, 255 });
 
+/** The values that DrawSlice() turns into greys, in its order; not a number outside all voxels. */
+std::vector<float>
+SliceValues(const Scan & scan, const Projection & plane);
+
 /** \class CapSurface
  * \brief A surface that a plane cuts open. */
 struct CapSurface

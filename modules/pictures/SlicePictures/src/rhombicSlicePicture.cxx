@@ -175,14 +175,10 @@ private:
   std::vector<FrameVector> m_Origins; ///< of the slices
 };
 
-template <typename TPixel>
+/** Calls \a use(x, value) for the pixels of a row of a plane, from the left. */
+template <typename TPixel, typename TUse>
 void
-DrawRow(const StackValues<TPixel> & values,
-        const Projection & plane,
-        int row,
-        const GreyWindow & window,
-        const SliceBackground & background,
-        Picture & picture)
+VisitRow(const StackValues<TPixel> & values, const Projection & plane, int row, const TUse & use)
 {
   const auto pointAt = [&](double x) {
     const Vector3 point = plane.PointAt({ x, row + 0.5 });
@@ -190,20 +186,28 @@ DrawRow(const StackValues<TPixel> & values,
   };
   const FrameVector first = pointAt(0.5);
   const FrameVector step = pointAt(1.5) - first;
-  std::uint8_t * pixel =
-    picture.pixels.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(picture.width * picture.channels);
   std::size_t slice = 0;
-  for (int x = 0; x < picture.width; ++x, pixel += picture.channels)
+  for (int x = 0; x < plane.width; ++x)
   {
-    const double value = values.ValueAt(first + step * x, slice);
-    SliceBackground colour = background;
-    if (!std::isnan(value))
-    {
-      const std::uint8_t grey = window.GreyOf(value);
-      colour = { grey, grey, grey, 255 };
-    }
-    std::copy_n(colour.begin(), picture.channels, pixel);
+    use(x, values.ValueAt(first + step * x, slice));
   }
+}
+
+/** Calls \a use(x, y, value) for all pixels of a plane, rows on several threads. */
+template <typename TUse>
+void
+VisitPlane(const Scan & scan, const Projection & plane, const TUse & use)
+{
+  std::visit(
+    [&](const auto & image) {
+      const StackValues values(*image, scan.sliceOrigins);
+      constexpr std::size_t rowsOfBlock = 8;
+      ForEachInBlocks(static_cast<std::size_t>(plane.height), rowsOfBlock, [&](std::size_t row) {
+        const int y = static_cast<int>(row);
+        VisitRow(values, plane, y, [&use, y](int x, double value) { use(x, y, value); });
+      });
+    },
+    scan.image);
 }
 
 } // namespace
@@ -212,16 +216,28 @@ Picture
 DrawSlice(const Scan & scan, const Projection & plane, const GreyWindow & window, const SliceBackground & background)
 {
   Picture picture(plane.width, plane.height, background[3] == 255 ? 3 : 4);
-  std::visit(
-    [&](const auto & image) {
-      const StackValues values(*image, scan.sliceOrigins);
-      constexpr std::size_t rowsOfBlock = 8;
-      ForEachInBlocks(static_cast<std::size_t>(plane.height), rowsOfBlock, [&](std::size_t row) {
-        DrawRow(values, plane, static_cast<int>(row), window, background, picture);
-      });
-    },
-    scan.image);
+  VisitPlane(scan, plane, [&](int x, int y, double value) {
+    SliceBackground colour = background;
+    if (!std::isnan(value))
+    {
+      const std::uint8_t grey = window.GreyOf(value);
+      colour = { grey, grey, grey, 255 };
+    }
+    const auto pixel = picture.At(x, y) - picture.pixels.data();
+    std::copy_n(colour.begin(), picture.channels, picture.pixels.begin() + pixel);
+  });
   return picture;
+}
+
+std::vector<float>
+SliceValues(const Scan & scan, const Projection & plane)
+{
+  const auto width = static_cast<std::size_t>(plane.width);
+  std::vector<float> values(width * static_cast<std::size_t>(plane.height));
+  VisitPlane(scan, plane, [&](int x, int y, double value) {
+    values[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] = static_cast<float>(value);
+  });
+  return values;
 }
 
 } // namespace rhombic

@@ -1,0 +1,396 @@
+#include "rhombicInteractivePage.h"
+
+#include "rhombicFailure.h"
+#include "rhombicPageBytes.h"
+#include "rhombicPageMesh.h"
+#include "rhombicPageResources.h"
+#include "rhombicPageVolume.h"
+#include "rhombicPictureIO.h"
+#include "rhombicWording.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace rhombic
+{
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+constexpr int SlicesOfBlock = 16;
+
+/** How much is left out: the first row is what every page has. */
+struct Reduction
+{
+  double error;    ///< mm, of surfaces
+  int levelFactor; ///< grey levels so many times as far from each other
+  int sliceStep;   ///< every so many slices
+};
+
+constexpr Reduction Reductions[] = { { 0.1, 1, 1 }, { 0.1, 2, 1 }, { 0.2, 2, 1 }, { 0.2, 4, 1 }, { 0.4, 4, 1 },
+                                     { 0.4, 4, 2 }, { 0.8, 4, 2 }, { 1.6, 4, 4 }, { 3.2, 4, 4 } };
+
+/** A data block of the page: what browsers do not run, under an id that the script looks for. */
+std::string
+DataBlock(const std::string & id, std::string_view bytes)
+{
+  return "<script type=\"application/octet-stream\" id=\"" + id + "\">" + ToBase64(bytes) + "</script>\n";
+}
+
+std::string
+JpegOf(const Picture & picture, int quality)
+{
+  PictureMetadata metadata;
+  metadata.jpegQuality = quality;
+  return EncodePicture(picture, ".jpg", metadata);
+}
+
+std::string
+HexOf(const Colour & colour)
+{
+  constexpr char digits[] = "0123456789abcdef";
+  std::string text = "#";
+  for (const std::uint8_t byte : ToBytes(colour))
+  {
+    text += digits[byte >> 4];
+    text += digits[byte & 15];
+  }
+  return text;
+}
+
+/** A picture with its caption. */
+std::string
+FigureOf(const StillPicture & picture, const std::string & what)
+{
+  constexpr int quality = 88;
+  const std::string caption = EscapeHtml(picture.caption);
+  return "<figure><img alt=\"" + what + ": " + caption + "\" width=\"" + std::to_string(picture.picture.width) +
+         "\" height=\"" + std::to_string(picture.picture.height) + "\" src=\"data:image/jpeg;base64," +
+         ToBase64(JpegOf(picture.picture, quality)) + "\"><figcaption>" + caption + "</figcaption></figure>\n";
+}
+
+std::string
+FiguresOf(const std::vector<StillPicture> & pictures, const std::string & what)
+{
+  std::string figures;
+  for (const StillPicture & picture : pictures)
+  {
+    figures += FigureOf(picture, what);
+  }
+  return figures.empty() ? "" : "<div class=\"figures\">\n" + figures + "</div>\n";
+}
+
+std::string
+Cell(const std::optional<double> & number, int decimals)
+{
+  return "<td class=\"number\">" + (number ? FormatFixed(*number, decimals) : std::string()) + "</td>";
+}
+
+/** The table of surfaces. */
+std::string
+TableOf(const PageContent & content)
+{
+  std::string rows;
+  for (const PageSurface & surface : content.surfaces)
+  {
+    rows += "<tr><td><svg class=\"swatch\" viewBox=\"0 0 10 10\" aria-hidden=\"true\"><rect width=\"10\" height=\"10\" "
+            "rx=\"2\" fill=\"" +
+            HexOf(surface.scene.colour) + "\"/></svg></td><th scope=\"row\"><bdi>" + EscapeHtml(surface.scene.name) +
+            "</bdi></th>" + Cell(surface.volume, 1) + Cell(surface.area, 1) + Cell(surface.mean, 1) + "</tr>\n";
+  }
+  const std::string unit = content.unit.empty() ? "" : ", " + EscapeHtml(content.unit);
+  return "<div class=\"wide\"><table>\n<thead><tr><th></th><th scope=\"col\">structure</th><th scope=\"col\" "
+         "class=\"number\">volume, ml</th>"
+         "<th scope=\"col\" class=\"number\">surface, cm\xc2\xb2</th><th scope=\"col\" class=\"number\">mean value" +
+         unit + "</th></tr></thead>\n<tbody>\n" + rows + "</tbody>\n</table></div>\n";
+}
+
+std::string
+ListOf(const std::vector<std::string> & lines)
+{
+  std::string list;
+  for (const std::string & line : lines)
+  {
+    list += "<li>" + EscapeHtml(line) + "</li>\n";
+  }
+  return list;
+}
+
+/** What the script has to know of the surfaces. */
+Json
+DescribeSurfaces(const PageContent & content)
+{
+  Json surfaces = Json::array();
+  for (const PageSurface & surface : content.surfaces)
+  {
+    Json entry{ { "name", surface.scene.name },
+                { "colour", ToBytes(surface.scene.colour) },
+                { "opacity", surface.scene.opacity },
+                { "glossy", surface.scene.isGlossy },
+                { "smooth", surface.scene.surface->HasNormals() } };
+    if (!surface.group.empty())
+    {
+      entry["group"] = surface.group;
+    }
+    if (surface.volume)
+    {
+      entry["volume"] = *surface.volume;
+    }
+    surfaces.push_back(entry);
+  }
+  return surfaces;
+}
+
+Json
+DescribeMesh(const PageMesh & mesh)
+{
+  Json sheets = Json::array();
+  for (const PageSheet & sheet : mesh.sheets)
+  {
+    sheets.push_back({ sheet.front, sheet.back, sheet.triangles });
+  }
+  return { { "origin", mesh.origin },
+           { "quantum", mesh.quantum },
+           { "points", mesh.points },
+           { "triangles", mesh.triangles },
+           { "sheets", sheets } };
+}
+
+Json
+DescribeVolume(const PageVolume & volume, const PageContent & content, std::size_t blocks)
+{
+  Json windows = Json::array();
+  if (content.unit == "HU")
+  {
+    for (const auto & [name, window] : WindowPresets())
+    {
+      windows.push_back({ name, window.width, window.centre });
+    }
+  }
+  return { { "size", volume.size },       { "origin", volume.origin },
+           { "spacing", volume.spacing }, { "levels", volume.levels },
+           { "blocks", blocks },          { "slicesOfBlock", SlicesOfBlock },
+           { "unit", content.unit },      { "window", { content.window.width, content.window.centre } },
+           { "windows", windows },        { "resampled", volume.isResampled } };
+}
+
+/** Everything of a page that does not depend on its reduction. */
+struct FixedParts
+{
+  std::string pictures; ///< HTML
+  std::string table;
+  std::string turntable; ///< data blocks
+};
+
+/** Parts of a page that are made as small as it needs. */
+struct ReducedParts
+{
+  PageMesh mesh;
+  PageVolume volume;
+  std::string surfaceBlocks;
+  std::string sliceBlocks;
+  std::size_t numberOfSliceBlocks = 0;
+};
+
+FixedParts
+MakeFixedParts(const PageContent & content)
+{
+  constexpr int quality = 78;
+  FixedParts parts;
+  parts.pictures = FiguresOf(content.views, "view") + FiguresOf(content.slices, "slice");
+  parts.table = TableOf(content);
+  for (std::size_t n = 0; n < content.turntable.size(); ++n)
+  {
+    parts.turntable += DataBlock("turn-" + std::to_string(n), JpegOf(content.turntable[n], quality));
+  }
+  return parts;
+}
+
+PageMeshMaker
+MakerOf(const PageContent & content)
+{
+  std::vector<SceneSurface> surfaces;
+  for (const PageSurface & surface : content.surfaces)
+  {
+    surfaces.push_back(surface.scene);
+  }
+  return PageMeshMaker(surfaces);
+}
+
+void
+CodeSurfaces(double error, PageMeshMaker & maker, ReducedParts & parts)
+{
+  maker.Simplify(error);
+  parts.mesh = maker.Make();
+  parts.surfaceBlocks = DataBlock("points", parts.mesh.pointBytes) + DataBlock("triangles", parts.mesh.triangleBytes);
+}
+
+void
+CodeSlices(PageVolume volume, ReducedParts & parts)
+{
+  parts.volume = std::move(volume);
+  parts.sliceBlocks.clear();
+  const std::vector<std::string> blocks = EncodeVolume(parts.volume, SlicesOfBlock);
+  parts.numberOfSliceBlocks = blocks.size();
+  for (std::size_t n = 0; n < blocks.size(); ++n)
+  {
+    parts.sliceBlocks += DataBlock("slices-" + std::to_string(n), blocks[n]);
+  }
+}
+
+std::vector<std::string>
+DescribeReduction(const PageWeight & weight, const PageContent & content, const ReducedParts & parts, bool isReduced)
+{
+  const std::string unit = content.unit.empty() ? "" : " " + content.unit;
+  std::vector<std::string> notes;
+  if (parts.mesh.refusal.empty())
+  {
+    notes.push_back("surfaces: simplified by at most " + FormatNumber(weight.surfaceError) + " mm, " +
+                    std::to_string(weight.triangles) + " of " + std::to_string(weight.trianglesBefore) +
+                    " triangles; positions in steps of " + FormatNumber(weight.quantum, 2) + " mm");
+  }
+  else
+  {
+    notes.push_back("surfaces: not simplified, as they are no manifold; " + std::to_string(weight.triangles) +
+                    " triangles");
+  }
+  if (content.scan != nullptr)
+  {
+    notes.push_back("slices: " + FormatProduct(weight.grid) + " samples of " + FormatProduct(weight.spacing, 3) +
+                    " mm" + (parts.volume.isResampled ? ", resampled from slices that lie otherwise" : "") +
+                    "; values rounded by at most " + FormatNumber(weight.valueError, 3) + unit +
+                    (content.unit == "HU" ? " from -200 to 300 HU, by more elsewhere" : "") + ", those below " +
+                    FormatNumber(weight.lowest, 5) + " and above " + FormatNumber(weight.highest, 5) + unit +
+                    " are not told apart");
+  }
+  if (isReduced)
+  {
+    notes.push_back("size: reduced to stay below " + FormatNumber(static_cast<double>(content.largestSize) / 1e6, 3) +
+                    " MB");
+  }
+  if (weight.size > content.largestSize)
+  {
+    notes.push_back("size: " + FormatNumber(static_cast<double>(weight.size) / 1e6, 3) + " MB, more than the " +
+                    FormatNumber(static_cast<double>(content.largestSize) / 1e6, 3) + " MB that were asked for");
+  }
+  return notes;
+}
+
+PageWeight
+WeightOf(const PageContent & content, const FixedParts & fixed, const ReducedParts & parts)
+{
+  PageWeight weight;
+  weight.sizeOfSurfaces = parts.surfaceBlocks.size();
+  weight.sizeOfSlices = parts.sliceBlocks.size();
+  weight.sizeOfPictures = fixed.pictures.size() + fixed.turntable.size();
+  weight.trianglesBefore = parts.mesh.trianglesBefore;
+  weight.triangles = parts.mesh.triangles;
+  weight.surfaceError = parts.mesh.error;
+  weight.quantum = parts.mesh.quantum;
+  if (content.scan != nullptr)
+  {
+    weight.grid = parts.volume.size;
+    weight.spacing = parts.volume.spacing;
+    weight.valueError = parts.volume.largestError;
+    weight.lowest = parts.volume.levels.front();
+    weight.highest = parts.volume.levels.back();
+  }
+  return weight;
+}
+
+/** The template with the values of its places, which are written {{name}}. */
+std::string
+Fill(std::string_view text, const std::map<std::string, std::string> & values)
+{
+  std::string filled;
+  while (true)
+  {
+    const auto begin = text.find("{{");
+    filled += text.substr(0, begin);
+    if (begin == std::string_view::npos)
+    {
+      return filled;
+    }
+    const auto end = text.find("}}", begin);
+    filled += values.at(std::string(text.substr(begin + 2, end - begin - 2)));
+    text.remove_prefix(end + 2);
+  }
+}
+
+std::string
+FillPage(const PageContent & content,
+         const FixedParts & fixed,
+         const ReducedParts & parts,
+         const std::vector<std::string> & notes)
+{
+  Json data{ { "title", content.title },
+             { "oriented", content.isOriented },
+             { "surfaces", DescribeSurfaces(content) },
+             { "mesh", DescribeMesh(parts.mesh) },
+             { "turntable", content.turntable.size() } };
+  if (content.scan != nullptr)
+  {
+    data["volume"] = DescribeVolume(parts.volume, content, parts.numberOfSliceBlocks);
+  }
+  std::vector<std::string> facts = content.facts;
+  facts.insert(facts.end(), notes.begin(), notes.end());
+  return Fill(PageTemplate,
+              { { "title", EscapeHtml(content.title) },
+                { "styleHash", HashToBase64(PageStyleHash) },
+                { "scriptHash", HashToBase64(PageScriptHash) },
+                { "style", PageStyle },
+                { "pictures", fixed.pictures },
+                { "table", fixed.table },
+                { "facts", ListOf(facts) },
+                { "data", EscapeJsonInHtml(data.dump(-1, ' ', false, Json::error_handler_t::replace)) },
+                { "blocks", parts.surfaceBlocks + parts.sliceBlocks + fixed.turntable },
+                { "script", PageScript } });
+}
+
+} // namespace
+
+MadePage
+MakeInteractivePage(const PageContent & content, const Events & events)
+{
+  if (content.surfaces.empty())
+  {
+    throw Failure(FailureKind::Usage, "A page needs a surface, and there is none.");
+  }
+  const FixedParts fixed = MakeFixedParts(content);
+  const PageVolume volume = content.scan != nullptr ? MakePageVolume(*content.scan, content.box) : PageVolume();
+  PageMeshMaker maker = MakerOf(content);
+  ReducedParts parts;
+  const Reduction * last = nullptr;
+  MadePage page;
+  for (const Reduction & reduction : Reductions)
+  {
+    events.Progress("fitting the page", static_cast<double>(&reduction - Reductions) / std::size(Reductions));
+    if (last == nullptr || (reduction.error > last->error && parts.mesh.refusal.empty()))
+    {
+      CodeSurfaces(reduction.error, maker, parts);
+    }
+    if (content.scan != nullptr &&
+        (last == nullptr || reduction.levelFactor > last->levelFactor || reduction.sliceStep > last->sliceStep))
+    {
+      CodeSlices(Coarsen(volume, reduction.levelFactor, reduction.sliceStep), parts);
+    }
+    page.weight = WeightOf(content, fixed, parts);
+    page.weight.size = std::size(PageScript) + std::size(PageStyle) + fixed.table.size() + page.weight.sizeOfSurfaces +
+                       page.weight.sizeOfSlices + page.weight.sizeOfPictures;
+    last = &reduction;
+    if (page.weight.size <= content.largestSize)
+    {
+      break;
+    }
+  }
+  page.weight.notes = DescribeReduction(page.weight, content, parts, last != Reductions);
+  page.html = FillPage(content, fixed, parts, page.weight.notes);
+  page.weight.size = page.html.size();
+  return page;
+}
+
+} // namespace rhombic

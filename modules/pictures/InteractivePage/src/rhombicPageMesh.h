@@ -1,0 +1,68 @@
+#ifndef rhombicPageMesh_h
+#define rhombicPageMesh_h
+
+#include "rhombicSceneSurface.h"
+#include "rhombicVector3.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace rhombic
+{
+
+/** Triangles that one surface has, or two that touch. */
+struct PageSheet
+{
+  std::uint32_t front = 0;   ///< number of the surface that has the triangles as they are, from 1
+  std::uint32_t back = 0;    ///< of the surface that has them turned over; 0: none
+  std::size_t triangles = 0; ///< number of them
+};
+
+/** \class PageMesh
+ * \brief The surfaces of a page as one mesh, coded by meshoptimizer. Walls that two surfaces share are held once.
+ *
+ * Positions are 16-bit numbers: origin + quantum * number. */
+struct PageMesh
+{
+  Vector3 origin{};
+  double quantum = 0.0; ///< mm
+  std::size_t points = 0;
+  std::size_t triangles = 0;
+  std::size_t trianglesBefore = 0; ///< of the surfaces that were given, with shared walls once
+  double error = 0.0;              ///< mm, by which the surfaces were simplified; 0: not at all
+  std::string refusal;             ///< why they were not simplified, as a sentence; empty if they were
+  std::vector<PageSheet> sheets;   ///< in the order of their triangles
+  std::string pointBytes;          ///< zlib streams of meshoptimizer's codes: 4 numbers for each point, the last 0,
+  std::string triangleBytes;       ///< and 3 indices for each triangle
+};
+
+/** \class PageMeshMaker
+ * \brief Simplifies surfaces, walls that they share only once, and codes them. */
+class PageMeshMaker
+{
+public:
+  explicit PageMeshMaker(const std::vector<SceneSurface> & surfaces);
+
+  /** Simplifies until the surfaces are up to \a error mm from those that were given, where they were simplified less
+   * before: the distances add up. Surfaces that can't be simplified, as with edges that are not manifold, stay as they
+   * are. */
+  void
+  Simplify(double error);
+
+  PageMesh
+  Make() const;
+
+private:
+  itk::TriangleSurface::Pointer m_Surface;
+  std::vector<std::array<std::uint32_t, 2>> m_Sides; ///< surfaces of the sheets
+  std::vector<std::uint32_t> m_Sheets;               ///< of the triangles
+  std::size_t m_TrianglesBefore = 0;
+  double m_Error = 0.0;
+  std::string m_Refusal;
+};
+
+} // namespace rhombic
+
+#endif

@@ -1,0 +1,222 @@
+#include "rhombicRenderPage.h"
+
+#include "rhombicFailure.h"
+#include "rhombicGreyWindow.h"
+#include "rhombicInteractivePage.h"
+#include "rhombicPictureSteps.h"
+#include "rhombicSurfaceRenderer.h"
+#include "rhombicWording.h"
+
+#include <algorithm>
+
+namespace fs = std::filesystem;
+
+namespace rhombic
+{
+namespace
+{
+
+constexpr int SideOfView = 640;      // pixels
+constexpr int SideOfTurntable = 440; // pixels
+constexpr int FramesOfTurntable = 24;
+
+RenderSettings
+SettingsOf(const RenderPageSettings & settings, int side)
+{
+  RenderSettings render;
+  render.width = render.height = side;
+  render.sameScale = true;
+  render.maximumMemory = settings.source.scan.lattice.maximumMemory;
+  return render;
+}
+
+/** The letters and the scale bar of a still picture. */
+Annotations
+AnnotationsOf(const PictureScene & scene)
+{
+  Annotations annotations;
+  annotations.letters = scene.isOriented;
+  annotations.figure = false;
+  return annotations;
+}
+
+void
+DrawViews(const RenderPageSettings & settings,
+          const PictureScene & source,
+          SurfaceRenderer & renderer,
+          PageContent & page)
+{
+  Scene scene;
+  scene.surfaces = ShadedSurfaces(source);
+  RenderSettings render = SettingsOf(settings, SideOfView);
+  const Annotations annotations = AnnotationsOf(source);
+  render.margins = MarginsOf(annotations, render.width, render.height, settings.views.front().frame);
+  auto drawn = renderer.Render(scene, render, settings.views);
+  for (std::size_t n = 0; n < drawn.size(); ++n)
+  {
+    Annotate(drawn[n].picture, drawn[n].projection.value(), annotations);
+    page.views.push_back({ std::move(drawn[n].picture), settings.views[n].name });
+  }
+  std::vector<View> turn;
+  for (int n = 0; n < FramesOfTurntable; ++n)
+  {
+    turn.push_back(ObliqueView(360.0 * n / FramesOfTurntable, 0.0));
+  }
+  render = SettingsOf(settings, SideOfTurntable);
+  render.centre = CentreOf(BoxAround(source.surfaces));
+  for (RenderedView & view : renderer.Render(scene, render, turn))
+  {
+    page.turntable.push_back(std::move(view.picture));
+  }
+}
+
+/** The planes of the still slices: those asked for, or three through the middle. */
+std::vector<PlaneRequest>
+PlanesOf(const RenderPageSettings & settings)
+{
+  if (!settings.slices.empty() || !settings.source.surfaceFiles.empty() || !settings.hasSlices)
+  {
+    return settings.slices;
+  }
+  return { { SlicePlane::Axial, "" }, { SlicePlane::Coronal, "" }, { SlicePlane::Sagittal, "" } };
+}
+
+void
+DrawSlices(const RenderPageSettings & settings, const PictureScene & scene, PageContent & page)
+{
+  for (const PlaneRequest & plane : PlanesOf(settings))
+  {
+    SheetPicture slice = CutScene(scene, plane, FindPlace(plane, scene), settings.slice).picture;
+    Annotations annotations = AnnotationsOf(scene);
+    const Margins margins = MarginsOf(annotations, SideOfView, SideOfView, slice.projection.frame);
+    DrawSceneSlice(scene, settings.slice, SideOfView, SideOfView, margins, slice);
+    annotations.outlines = slice.outlines;
+    Annotate(slice.picture, slice.projection, annotations);
+    page.slices.push_back({ std::move(slice.picture), slice.caption + ", " + slice.position });
+  }
+}
+
+/** As the title of a sheet. */
+std::string
+TitleOf(const RenderPageSettings & settings, const PictureScene & scene)
+{
+  constexpr std::size_t few = 3;
+  std::vector<std::string> names;
+  for (const LegendRow & row : scene.rows)
+  {
+    names.push_back(row.name);
+  }
+  const std::string shown = names.size() <= few ? Enumerate(names, "and") : Count(names.size(), "structure");
+  return settings.title.empty() ? scene.examination + ": " + shown : settings.title;
+}
+
+PageContent
+ContentOf(const RenderPageSettings & settings, const PictureScene & scene)
+{
+  PageContent page;
+  page.title = TitleOf(settings, scene);
+  page.facts = scene.facts;
+  page.facts.push_back("made by: " + settings.provenance.software);
+  page.unit = scene.unit;
+  page.isOriented = scene.isOriented;
+  page.largestSize = settings.largestSize;
+  constexpr std::size_t few = 8; // need no groups
+  const bool hasGroups = scene.rows.size() > few;
+  for (std::size_t n = 0; n < scene.surfaces.size(); ++n)
+  {
+    const LegendRow & row = scene.rows[n];
+    const std::string group = row.group.empty() ? "other" : row.group;
+    page.surfaces.push_back({ scene.surfaces[n], hasGroups ? group : "", row.volume, row.area, row.mean });
+  }
+  if (settings.hasSlices && scene.scan)
+  {
+    page.scan = &*scene.scan;
+    page.box = BoxOf(*scene.scan);
+    page.window = WindowFromText(settings.slice.window, *scene.scan);
+    page.facts.push_back(
+      "privacy: no name, number or date of the patient is in this file; if the head is in the scan, the "
+      "face can be recognised from skin and slices");
+  }
+  return page;
+}
+
+Report
+ReportWeight(const PageWeight & weight)
+{
+  Report report{ { "bytes", weight.size },
+                 { "bytesOfSurfaces", weight.sizeOfSurfaces },
+                 { "bytesOfSlices", weight.sizeOfSlices },
+                 { "bytesOfPictures", weight.sizeOfPictures },
+                 { "trianglesBefore", weight.trianglesBefore },
+                 { "triangles", weight.triangles },
+                 { "surfaceError_mm", weight.surfaceError },
+                 { "positionStep_mm", weight.quantum } };
+  if (weight.grid[0] > 0)
+  {
+    report["slices"] = { { "size", weight.grid },
+                         { "spacing_mm", weight.spacing },
+                         { "largestValueError", weight.valueError },
+                         { "lowestValue", weight.lowest },
+                         { "highestValue", weight.highest } };
+  }
+  report["notes"] = weight.notes;
+  return report;
+}
+
+} // namespace
+
+bool
+IsPagePath(const fs::path & path)
+{
+  const std::string extension = LowerCase(path.extension().string());
+  return extension == ".html" || extension == ".htm";
+}
+
+std::vector<fs::path>
+CheckRenderPage(const RenderPageSettings & settings)
+{
+  ParseWindow(settings.slice.window);
+  if (settings.writesDicom)
+  {
+    throw Failure(FailureKind::Usage,
+                  "DICOM files hold pictures, and an interactive page is none; leave out --dicom-sc.");
+  }
+  if (settings.source.surfaceFiles.empty())
+  {
+    SurfaceSelection selection = settings.source.surfaces;
+    NeedPlaces(settings.slices, selection.rules);
+    CheckSelection(selection);
+  }
+  return WithSidecars({ settings.page }, settings.provenance);
+}
+
+std::vector<MadeFile>
+RenderPage(const RenderPageSettings & settings, const Events & events, std::optional<SourceVolume> volume)
+{
+  CheckOutputs(CheckRenderPage(settings), settings.source.scan, settings.source.surfaces);
+  SurfaceRenderer renderer;
+  renderer.CheckSettings(SettingsOf(settings, SideOfView));
+  PictureSource source = settings.source;
+  NeedPlaces(PlanesOf(settings), source.surfaces.rules);
+  PictureScene scene = MakePictureScene(source, std::move(volume), settings.hasSlices, events);
+  OpenEnclosing(source.surfaces, {}, scene, events);
+  events.Progress("drawing the page", 0.0);
+  PageContent content = ContentOf(settings, scene);
+  DrawViews(settings, scene, renderer, content);
+  DrawSlices(settings, scene, content);
+  events.Progress("drawing the page", 1.0);
+  const MadePage page = MakeInteractivePage(content, events);
+  for (const std::string & note : page.weight.notes)
+  {
+    events.Note("page: " + note);
+  }
+  scene.report["page"] = ReportWeight(page.weight);
+  OutputFiles outputs{ settings.provenance };
+  StageText(page.html, settings.page, outputs.staged);
+  AddOutput(settings.page, "page", scene.report, outputs);
+  StageFilesBeside({ content.views.front().picture }, settings, std::nullopt, {}, 0.0, events, outputs);
+  outputs.staged.Commit();
+  return outputs.made;
+}
+
+} // namespace rhombic

@@ -1,0 +1,321 @@
+// Opens the pages of check-browser.sh in Chromium, as a reader does, and looks at what it shows.
+import { readFileSync } from 'node:fs';
+import { resolve } from 'node:path';
+import axe from 'axe-core';
+import { chromium } from 'playwright-core';
+
+let failures = 0;
+function check(isTrue, what) {
+  console.log(`${isTrue ? 'ok    ' : 'FAILED'} ${what}`);
+  failures += isTrue ? 0 : 1;
+}
+
+const software = ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
+const without3d = ['--disable-gpu', '--disable-software-rasterizer', '--disable-3d-apis'];
+
+/** Opens a page, runs \a work in it, and checks that it asked for nothing and reported no error. */
+async function open(file, { args = software, hash = '', tolerated = /^$/, ...options }, work) {
+  const browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: ['--no-sandbox', ...args] });
+  const context = await browser.newContext({ viewport: { width: 1200, height: 900 }, colorScheme: 'dark', reducedMotion: 'reduce', ...options });
+  const page = await context.newPage();
+  const requests = [], errors = [];
+  page.on('request', (request) => { if (!/^(data|blob):/.test(request.url())) requests.push(request.url()); });
+  page.on('console', (message) => { if (message.type() === 'error' && !tolerated.test(message.text())) errors.push(message.text()); });
+  page.on('pageerror', (error) => errors.push(error.message));
+  const start = Date.now();
+  await page.goto('file://' + resolve(file) + hash);
+  if (options.javaScriptEnabled !== false) await page.waitForFunction(() => document.body.dataset.ready === 'yes', null, { timeout: 120000 });
+  console.log(`${file}: ready after ${Date.now() - start} ms`);
+  await work(page);
+  check(requests.length === 1 && requests[0].startsWith('file://'), `${file}: no request but for itself`);
+  check(errors.length === 0, `${file}: no errors ${errors.join('; ')}`);
+  await browser.close();
+}
+
+const drawn = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => setTimeout(() => requestAnimationFrame(done), 350))));
+
+/** The pixels of the 3D canvas, or of a picture's bytes; as text, since Chromium's protocol is slow with numbers. */
+const pixelsOf = (page, bytes) => page.evaluate(async (base64) => {
+  const source = base64 ? await createImageBitmap(await (async () => {
+    const image = new Image();
+    image.src = 'data:image/png;base64,' + base64;
+    await image.decode();
+    return image;
+  })()) : document.getElementById('canvas');
+  const copy = document.createElement('canvas');
+  copy.width = source.width;
+  copy.height = source.height;
+  const context = copy.getContext('2d');
+  context.drawImage(source, 0, 0);
+  let text = '';
+  const { data } = context.getImageData(0, 0, source.width, source.height);
+  for (let n = 0; n < data.length; n += 32768) text += String.fromCharCode(...data.subarray(n, n + 32768));
+  return { width: source.width, height: source.height, text: btoa(text) };
+}, bytes).then(({ text, ...size }) => ({ ...size, data: Buffer.from(text, 'base64') }));
+
+const stateIn = (hash) => JSON.parse(Buffer.from(hash.replace('#view=', ''), 'base64url'));
+const hashOf = (state) => '#view=' + Buffer.from(JSON.stringify(state)).toString('base64url');
+
+/** The state of the page, by its own button and field. */
+async function copyState(page) {
+  await page.locator('summary', { hasText: 'Share' }).evaluate((summary) => { summary.parentElement.open = true; });
+  await page.locator('button', { hasText: 'Copy this view' }).click();
+  return stateIn(await page.locator('[aria-label="A copied view"]').inputValue());
+}
+
+const lettersOf = (page, place) => page.evaluate((selector) => ['left', 'right', 'top', 'bottom']
+  .map((side) => document.querySelector(`${selector} .letter.${side}`).textContent).join(' '), place);
+
+const isLit = ({ data }, n) => data[4 * n] + data[4 * n + 1] + data[4 * n + 2] > 24;
+
+async function checkLetters(page) {
+  await page.locator('#canvas').focus();
+  const expected = ['R L H F', 'L R H F', 'A P H F', 'P A H F', 'L R A P', 'R L A P'];
+  for (let n = 0; n < 6; n++) {
+    await page.keyboard.press(String(n + 1));
+    await drawn(page);
+    const found = await lettersOf(page, '#scene');
+    // From above with the face up, the patient's right is on the right; from below, on the left.
+    check(found === expected[n], `letters of view ${n + 1}: ${found}`);
+  }
+  check(await lettersOf(page, '.slice:nth-child(1)') === 'R L A P', 'letters of the axial slice');
+  check(await lettersOf(page, '.slice:nth-child(2)') === 'R L H F', 'letters of the coronal slice');
+  check(await lettersOf(page, '.slice:nth-child(3)') === 'A P H F', 'letters of the sagittal slice');
+  await page.keyboard.press('1');
+}
+
+/** The view from the front is that of the program's own picture. */
+async function checkPicture(page) {
+  const own = await pixelsOf(page, readFileSync('own.png').toString('base64'));
+  await page.evaluate(() => {
+    Object.assign(document.getElementById('scene').style, { position: 'fixed', left: 0, top: 0, width: '700px', height: '700px', zIndex: 9 });
+  });
+  await drawn(page);
+  await page.locator('#canvas').focus();
+  await page.keyboard.press('0');
+  await drawn(page);
+  const state = await copyState(page);
+  await page.evaluate((hash) => { location.hash = hash; }, hashOf({ ...state, a: 0, e: 0, s: 0.6 }));
+  await drawn(page);
+  const shown = await pixelsOf(page);
+  check(shown.width === 700 && shown.height === 700, 'the canvas has the size of the picture');
+  let both = 0, either = 0;
+  const sums = new Map();
+  for (let n = 0; n < shown.width * shown.height; n++) {
+    const a = isLit(own, n), b = isLit(shown, n);
+    both += a && b ? 1 : 0;
+    either += a || b ? 1 : 0;
+    if (!a || !b) continue;
+    const pixel = (picture) => [0, 1, 2].map((channel) => picture.data[4 * n + channel]);
+    const [r, g, blue] = pixel(own);
+    const organ = g > 1.3 * r ? 'marker' : r > 2.2 * g ? 'heart' : blue > 0.75 * g ? 'lung' : 'liver'; // by their hues
+    const sum = sums.get(organ) ?? { count: 0, own: [0, 0, 0], shown: [0, 0, 0] };
+    sum.count++;
+    pixel(own).forEach((value, channel) => { sum.own[channel] += value; });
+    pixel(shown).forEach((value, channel) => { sum.shown[channel] += value; });
+    sums.set(organ, sum);
+  }
+  check(both / either >= 0.99, `silhouettes: ${(both / either).toFixed(4)} of the area in common`);
+  for (const [organ, sum] of sums) {
+    if (sum.count < 500) continue;
+    const difference = Math.max(...sum.own.map((value, channel) => Math.abs(value - sum.shown[channel]) / sum.count));
+    check(difference <= 12, `mean colour of ${organ} (${sum.count} pixels) differs by ${difference.toFixed(1)} of 255`);
+  }
+  return shown;
+}
+
+/** Hiding an organ changes pixels only where it was. */
+async function checkHiding(page, before) {
+  const only = page.getByRole('button', { name: 'Show only marker' });
+  await only.click();
+  await page.mouse.move(1190, 5);
+  await drawn(page);
+  const marker = await pixelsOf(page);
+  await page.getByRole('button', { name: 'All', exact: true }).click();
+  await page.getByRole('checkbox', { name: 'Show marker' }).uncheck();
+  await drawn(page);
+  const without = await pixelsOf(page);
+  const { width, height } = before;
+  const near = new Set(); // blocks of 8 x 8 pixels about the marker: it takes light from what is near
+  for (let n = 0; n < width * height; n++) {
+    if (!isLit(marker, n)) continue;
+    const [column, row] = [n % width >> 3, Math.floor(n / width) >> 3];
+    for (let v = -2; v <= 2; v++) for (let u = -2; u <= 2; u++) near.add((row + v) * 1024 + column + u);
+  }
+  let changed = 0, elsewhere = 0;
+  for (let y = 0; y < height; y++) {
+    for (let x = 0; x < width; x++) {
+      const n = y * width + x;
+      if ([0, 1, 2].every((channel) => Math.abs(before.data[4 * n + channel] - without.data[4 * n + channel]) <= 2)) continue;
+      changed++;
+      const isNear = near.has((y >> 3) * 1024 + (x >> 3));
+      elsewhere += isNear ? 0 : 1;
+    }
+  }
+  check(changed > 500 && elsewhere === 0, `hiding the marker changes ${changed} pixels, ${elsewhere} of them elsewhere`);
+  await page.getByRole('checkbox', { name: 'Show marker' }).check();
+  await page.evaluate(() => document.getElementById('scene').removeAttribute('style'));
+  await drawn(page);
+}
+
+const readout = async (page) => {
+  const text = (await page.locator('#tools details').first().locator('output').first().textContent()).replaceAll('\u2212', '-');
+  const [, x, y, z] = /LPS (\S+), (\S+), (\S+) mm/.exec(text);
+  return { point: [x, y, z].map(Number), text };
+};
+
+/** Clicks name organs, move the crosshair and set points. */
+async function checkPicking(page) {
+  const state = await copyState(page);
+  // The marker is a letter F on the left of the chest: its middle stroke lies at x > 0 in LPS, on the right in this view.
+  await page.evaluate((hash) => { location.hash = hash; }, hashOf({ ...state, a: 0, e: 0, s: 1 }));
+  await drawn(page);
+  const canvas = await page.locator('#canvas').boundingBox();
+  const pixels = await pixelsOf(page);
+  let at = null;
+  for (let n = 0; n < pixels.width * pixels.height && !at; n++) {
+    const [r, g] = [pixels.data[4 * n], pixels.data[4 * n + 1]];
+    if (g > 60 && g > 1.4 * r) at = [n % pixels.width, Math.floor(n / pixels.width) + 4];
+  }
+  await page.mouse.click(canvas.x + at[0] + 2, canvas.y + at[1]);
+  await drawn(page);
+  check(await page.locator('#told').textContent() === 'marker', 'a click names the marker');
+  check(await page.locator('.organ.marked .name').textContent() === 'marker', 'and marks its row');
+  const hit = (await readout(page)).point;
+  const expectedX = state.c[0] + (at[0] + 2 - canvas.width / 2), expectedZ = state.c[2] - (at[1] - canvas.height / 2);
+  check(hit[0] > 20 && Math.abs(hit[0] - expectedX) <= 0.6 && Math.abs(hit[2] - expectedZ) <= 0.6, `it lies on the patient's left, at ${hit}`);
+  const axial = page.locator('.slice:nth-child(1) canvas');
+  const box = await axial.boundingBox();
+  await axial.click({ position: { x: box.width / 2, y: box.height / 2 } });
+  await drawn(page);
+  const { point } = await readout(page);
+  check(Math.abs(point[0]) <= 4 && Math.abs(point[1] + 4) <= 4, `the middle of the axial slice is that of the scan: ${point}`);
+  // Two points on the slice, whose coordinates the crosshair has told before.
+  const places = [[0.4, 0.45], [0.62, 0.58]];
+  const told = [];
+  for (const [u, v] of places) {
+    await axial.click({ position: { x: u * box.width, y: v * box.height } });
+    await drawn(page);
+    told.push((await readout(page)).point);
+  }
+  await page.locator('summary', { hasText: 'Measure' }).click();
+  await page.getByRole('button', { name: 'Set points' }).click();
+  for (const [u, v] of places) await axial.click({ position: { x: u * box.width, y: v * box.height } });
+  await drawn(page);
+  const text = await page.locator('.distance').textContent();
+  const truth = Math.hypot(...[0, 1, 2].map((axis) => told[0][axis] - told[1][axis]));
+  check(Math.abs(Number(/([\d.]+) mm/.exec(text)[1]) - truth) <= 0.2, `distance: ${text}, truth ${truth.toFixed(2)} mm`);
+  check(text.includes('not for diagnosis'), 'the distance says what it is not for');
+  await page.getByRole('button', { name: 'Stop setting points' }).click();
+}
+
+/** A copied view holds no path, and comes back through the field. */
+async function checkSharing(page) {
+  const state = await copyState(page);
+  check(state.m.length === 2 && Object.keys(state).length === 10, 'a copied view holds the view and the points alone');
+  const field = page.getByRole('textbox', { name: 'A copied view' });
+  await field.fill('file:///somewhere/page.html' + hashOf({ ...state, a: 90, e: 0, w: [1500, -500] }));
+  await field.press('Enter');
+  await drawn(page);
+  check(await lettersOf(page, '#scene') === 'A P H F', 'a pasted view is shown');
+  await field.fill('#view=bm90IGEgdmlldw');
+  await field.press('Enter');
+  check((await page.locator('#tools').textContent()).includes('This is no view'), 'a damaged one is refused');
+}
+
+async function checkCut(page) {
+  const whole = await pixelsOf(page);
+  await page.locator('summary', { hasText: 'Cut' }).click();
+  await page.getByRole('combobox', { name: 'Plane of the cut' }).selectOption('sagittal');
+  await drawn(page);
+  const cut = await pixelsOf(page);
+  let greys = 0, changed = 0;
+  for (let n = 0; n < cut.width * cut.height; n++) {
+    const same = [0, 1, 2].every((channel) => whole.data[4 * n + channel] === cut.data[4 * n + channel]);
+    changed += same ? 0 : 1;
+    const [r, g, b] = [cut.data[4 * n], cut.data[4 * n + 1], cut.data[4 * n + 2]];
+    greys += !same && r > 20 && Math.max(r, g, b) - Math.min(r, g, b) < 60 ? 1 : 0;
+  }
+  check(changed > 1000 && greys > 200, `the cut changes ${changed} pixels; ${greys} are cut faces`);
+  await page.getByRole('combobox', { name: 'Plane of the cut' }).selectOption('off');
+}
+
+async function checkLostContext(page) {
+  await page.evaluate(() => { window.lost = document.getElementById('canvas').getContext('webgl2').getExtension('WEBGL_lose_context'); window.lost.loseContext(); });
+  await page.waitForFunction(() => document.body.dataset.layer === 'pictures');
+  check((await page.locator('#layer').textContent()).includes('taken back'), 'a lost context is told, and pictures are shown');
+  await page.evaluate(() => window.lost.restoreContext());
+  await page.waitForFunction(() => document.body.dataset.layer === '3d');
+  await drawn(page);
+  const pixels = await pixelsOf(page);
+  let lit = 0;
+  for (let n = 0; n < pixels.width * pixels.height; n++) lit += isLit(pixels, n) ? 1 : 0;
+  check(lit > 1000, 'the restored context draws again');
+}
+
+async function checkAccess(page) {
+  await page.evaluate(axe.source);
+  const result = await page.evaluate(() => window.axe.run(document, { resultTypes: ['violations'] }));
+  const serious = result.violations.filter(({ impact }) => impact === 'serious' || impact === 'critical');
+  check(serious.length === 0, `accessible: ${serious.map(({ id, nodes }) => id + ' ' + nodes[0].html).join('; ')}`);
+}
+
+await open('organs.html', {}, async (page) => {
+  check(await page.evaluate(() => document.body.dataset.layer) === '3d', 'WebGL2: the scene runs');
+  await checkLetters(page);
+  const shown = await checkPicture(page);
+  await checkHiding(page, shown);
+  await checkPicking(page);
+  await checkSharing(page);
+  await checkCut(page);
+  await checkLostContext(page);
+  await checkAccess(page);
+  await page.screenshot({ path: 'organs.png' });
+});
+
+await open('surfaces.html', { tolerated: /Content Security Policy/ }, async (page) => {
+  const isRefused = await page.evaluate(() => fetch('https://example.com/').then(() => false, () => true));
+  check(isRefused, 'the page can not ask a network');
+});
+
+await open('shell.html', { args: without3d }, async (page) => {
+  check(await page.evaluate(() => document.body.dataset.layer) === 'pictures', 'no WebGL: the turntable runs');
+  check((await page.locator('#layer').textContent()).includes('no WebGL2'), 'and the page says why');
+  check(await page.locator('#turntable').evaluate((image) => image.naturalWidth > 0), 'its picture is there');
+  await page.locator('#turntable').focus();
+  for (let n = 0; n < 6; n++) await page.keyboard.press('ArrowRight');
+  await drawn(page);
+  check(await lettersOf(page, '#scene') === 'A P H F', 'six pictures on is the view from the left');
+  const mean = await page.locator('.slice canvas').first().evaluate((canvas) => {
+    const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+    return data.reduce((sum, value) => sum + value, 0) / data.length;
+  });
+  check(mean > 70, 'slices are drawn');
+  await page.screenshot({ path: 'pictures.png' });
+});
+
+await open('shell.html', { javaScriptEnabled: false }, async (page) => {
+  check(await page.locator('#still img:visible').count() === 7, 'no scripts: four views and three slices');
+  check(await page.locator('#still tbody tr').count() === 2, 'and the table');
+  await page.screenshot({ path: 'still.png', fullPage: true });
+});
+
+await open('shell.html', { viewport: { width: 360, height: 640 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 }, async (page) => {
+  check(await page.evaluate(() => document.documentElement.scrollWidth) <= 360, 'a phone: nothing is wider than the screen');
+  await page.locator('#canvas').tap();
+  await drawn(page);
+  check(await page.locator('.organ.marked').count() === 1, 'a tap names a structure');
+  await page.screenshot({ path: 'phone.png', fullPage: true });
+});
+
+await open('surfaces.html', { colorScheme: 'light' }, async (page) => {
+  check(await page.locator('.slice').count() === 0, 'surfaces alone: no slices');
+  await page.locator('#canvas').focus();
+  for (const key of ['ArrowLeft', 'ArrowUp', '+', '-', '3']) await page.keyboard.press(key);
+  await drawn(page);
+  check(await lettersOf(page, '#scene') === 'A P H F', 'keys turn the scene');
+  await page.screenshot({ path: 'surfaces.png' });
+});
+
+console.log(failures === 0 ? 'all is well' : `${failures} checks failed`);
+process.exit(failures === 0 ? 0 : 1);

@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# check-browser.sh RHOMBIC PHANTOM FOLDER: makes interactive pages of the phantom in FOLDER and opens them in Chromium. Exits
+# with 77, which CTest takes for skipped, where there is no node, npm or Chromium, or no network to fetch the packages of
+# package-lock.json from, once.
+set -euo pipefail
+
+rhombic=$1
+phantom=$2
+folder=$3
+here=$(cd "$(dirname "$0")" && pwd)
+
+for program in node npm chromium; do
+  command -v "$program" >/dev/null || { echo "skipped: $program is not installed"; exit 77; }
+done
+mkdir -p "$folder"
+cp "$here"/package.json "$here"/package-lock.json "$here"/check-browser.mjs "$folder"
+if [ ! -d "$folder/node_modules/playwright-core" ]; then
+  (cd "$folder" && timeout 300 npm ci --ignore-scripts --no-audit --no-fund) || { echo "skipped: npm can't fetch packages"; exit 77; }
+fi
+cd "$folder"
+labels=(--labels "$phantom/phantom-labels.nii.gz" --label heart --label liver --label marker --label "right lung")
+"$rhombic" -q render "$phantom/dicom" "${labels[@]}" -o organs.html
+"$rhombic" -q render "$phantom/dicom" "${labels[@]}" --size 700x700 --pixel-size 0.6 --annotate none -o own.png
+"$rhombic" -q render "$phantom/dicom" --preset ct-bone-skin -o shell.html
+"$rhombic" -q mesh "$phantom/dicom" "${labels[@]}" -o organs.vtp
+"$rhombic" -q render organs.vtp -o surfaces.html
+node check-browser.mjs
