@@ -2,6 +2,9 @@
 // of each label, smooths it as 3D Slicer does by default, and writes it as binary STL. It checks nothing.
 
 #include "itkImageFileReader.h"
+#include "itkMetaImageIOFactory.h"
+#include "itkNiftiImageIOFactory.h"
+#include "itkNrrdImageIOFactory.h"
 
 #include <vtkDiscreteFlyingEdges3D.h>
 #include <vtkImageData.h>
@@ -26,6 +29,9 @@ main(int argc, char ** argv)
   }
   try
   {
+    itk::MetaImageIOFactory::RegisterOneFactory();
+    itk::NiftiImageIOFactory::RegisterOneFactory();
+    itk::NrrdImageIOFactory::RegisterOneFactory();
     using ImageType = itk::Image<std::uint16_t, 3>;
     const auto reader = itk::ImageFileReader<ImageType>::New();
     reader->SetFileName(argv[1]);
