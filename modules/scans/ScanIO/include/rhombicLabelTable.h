@@ -72,8 +72,8 @@ FindAnatomicalColour(const std::string & name);
 std::string
 FindAnatomicalGroup(const std::string & name);
 
-/** FindAnatomicalColour(), or for other names one of 16 quiet colours, or of lighter and darker ones: by \a value, or by
- * the name where that has a side, so that left and right have one hue. */
+/** FindAnatomicalColour(), or for other names one of 16 quiet colours, or of lighter and darker ones: by \a value, or
+ * by the name where that has a side, so that left and right have one hue. */
 std::array<std::uint8_t, 3>
 AnatomicalColour(const std::string & name, std::int32_t value);
 
