@@ -172,13 +172,20 @@ private:
 
 // ---- Passes, in the order of their use
 
-/** Makes the lattice of a refined map, without samples. */
+/** Makes the lattice of a refined map, without samples. Between slices that are refined to four voxels or more, fields
+ * are as smooth as the slices allow: there sites are twice as far apart along the refined axis. */
 FieldLattice::Pointer
 MakeLattice(const RefinedMap & map, double density)
 {
   const auto filter = CartesianToFCCImageFilter<FieldImage>::New();
   filter->SetInput(&map.GetGrid());
-  filter->SetDensity(density);
+  auto spacing = map.GetGrid().GetSpacing();
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    const double stretch = std::clamp(0.5 * static_cast<double>(map.GetPeriod()[axis]), 1.0, 2.0);
+    spacing[axis] *= stretch / std::cbrt(2.0 * density); // a site has the volume of two cubes of the spacing's edge
+  }
+  filter->SetOutputSpacing(spacing);
   filter->SetSliceOrigins(map.GetSliceOrigins());
   filter->UpdateOutputInformation();
   FieldLattice::Pointer lattice = filter->GetOutput();
