@@ -10,7 +10,9 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <numeric>
 #include <vector>
@@ -355,13 +357,19 @@ FindBorder(const MaskWork & work)
                                             y + 1 < height ? voxels + length : voxels,
                                             z > 0 ? voxels - height * length : voxels,
                                             z + 1 < work.size[2] ? voxels + height * length : voxels };
+    const auto isSameRow = [&](const std::uint8_t * other) { return std::memcmp(voxels, other, length) == 0; };
+    if (std::memcmp(voxels, voxels + 1, length - 1) == 0 &&
+        std::all_of(std::begin(others), std::end(others), isSameRow)) // quicker than tile by tile, and mostly so
+    {
+      return;
+    }
     for (SizeValueType begin = 0; begin < length; begin += border.GetTileLength())
     {
       const SizeValueType end = std::min(begin + border.GetTileLength(), length);
       bool isBorder = false;
-      for (SizeValueType x = begin; x < end; ++x)
+      for (SizeValueType x = begin; x < std::min(end, length - 1); ++x)
       {
-        isBorder |= (voxels[x] != 0) != (voxels[std::min(x + 1, length - 1)] != 0);
+        isBorder |= (voxels[x] != 0) != (voxels[x + 1] != 0);
       }
       for (const std::uint8_t * const other : others)
       {
@@ -410,7 +418,17 @@ FindSamples(const MaskWork & work, unsigned int axis, double sigma)
   return samples;
 }
 
-/** Makes the field in a band so that its coverage of the samples, smoothed, is the smoothed mask. */
+/** The rows of a band that hold samples, or the others. */
+VoxelBand
+RowsOf(const VoxelBand & band, const std::vector<std::uint8_t> & hasSamples, bool withSamples)
+{
+  return band.Selected([&](SizeValueType row) { return (hasSamples[row] != 0) == withSamples; });
+}
+
+/** Makes the field in a band so that its coverage of the samples, smoothed, is the smoothed mask.
+ *
+ * The field is the sum of the smoothed lacks of all rounds, which depend on rows with samples alone: the other rows
+ * follow from the sum of the lacks at the end. */
 void
 MatchLocalVolumes(const MaskWork & work, const Scale & scale, const VoxelBand & band, float * field)
 {
@@ -421,36 +439,71 @@ MatchLocalVolumes(const MaskWork & work, const Scale & scale, const VoxelBand & 
   const AxisSamples alongX = FindSamples(work, 0, sigma);
   const AxisSamples alongY = FindSamples(work, 1, sigma);
   const AxisSamples alongZ = FindSamples(work, 2, sigma);
-  for (unsigned int n = 0; n <= scale.corrections; ++n)
+  std::vector<std::uint8_t> hasSamples(height * work.size[2]); // by row
+  std::vector<SizeValueType> placeOfRow(hasSamples.size());    // in the sums
+  SizeValueType placed = 0;
+  for (SizeValueType row = 0; row < hasSamples.size(); ++row)
   {
-    const bool isFirst = n == 0; // the field is 0 everywhere, its coverage 1/2
-    const float factor = isFirst ? slope : scale.gain * slope;
-    const auto readLack = [&](SizeValueType row, float * values) {
-      const auto read = [&, mask = work.mask + row * width](SizeValueType begin, SizeValueType end) {
-        for (SizeValueType x = begin; x < end; ++x)
-        {
-          const float coverage = isFirst ? 0.5f : std::min(1.0f, std::max(0.0f, field[row * width + x] + 0.5f));
-          values[x] = alongX.isSample[x] * ((mask[x] != 0 ? 1.0f : 0.0f) - coverage);
-        }
-      };
-      const bool hasSamples =
-        alongY.isSample[row % height] * alongZ.isSample[row / height] > 0.0f && (isFirst || band.HasRow(row));
-      if (hasSamples)
+    hasSamples[row] = alongY.isSample[row % height] * alongZ.isSample[row / height] > 0.0f ? 1 : 0;
+    placeOfRow[row] = placed;
+    placed += hasSamples[row] != 0 && band.HasRow(row) ? width : 0;
+  }
+  const bool areAllSamples = std::find(hasSamples.begin(), hasSamples.end(), 0) == hasSamples.end();
+  std::vector<float> sums(areAllSamples ? 0 : placed); // of the lacks after the first, times the gain
+  const VoxelBand matched = areAllSamples ? band : RowsOf(band, hasSamples, true);
+  const auto readMask = [&](SizeValueType row, float * values) {
+    const std::uint8_t * const mask = work.mask + row * width;
+    for (SizeValueType x = 0; x < width && hasSamples[row] != 0; ++x)
+    {
+      values[x] = alongX.isSample[x] * ((mask[x] != 0 ? 1.0f : 0.0f) - 0.5f); // the field is 0, its coverage 1/2
+    }
+    return hasSamples[row] != 0;
+  };
+  const auto readLack = [&](SizeValueType row, float * values) {
+    if (!matched.HasRow(row))
+    {
+      return false;
+    }
+    std::fill_n(values, width, 0.0f);
+    matched.ForEachRun(row, [&, mask = work.mask + row * width](SizeValueType begin, SizeValueType end) {
+      for (SizeValueType x = begin; x < end; ++x)
       {
-        std::fill_n(values, width, 0.0f);
-        isFirst ? read(0, width) : band.ForEachRun(row, read);
+        const float coverage = std::min(1.0f, std::max(0.0f, field[row * width + x] + 0.5f));
+        values[x] = scale.gain * alongX.isSample[x] * ((mask[x] != 0 ? 1.0f : 0.0f) - coverage);
       }
-      return hasSamples;
-    };
-    const auto correct = [&](SizeValueType row, SizeValueType begin, SizeValueType end, const float * values) {
+      for (SizeValueType x = begin; x < end && !areAllSamples; ++x)
+      {
+        sums[placeOfRow[row] + x] += values[x];
+      }
+    });
+    return true;
+  };
+  const auto readAll = [&](SizeValueType row, float * values) {
+    const bool isRead = readMask(row, values);
+    for (SizeValueType x = 0; x < width && isRead && band.HasRow(row); ++x)
+    {
+      values[x] += sums[placeOfRow[row] + x];
+    }
+    return isRead;
+  };
+  const auto add = [&](bool isFirst) {
+    return [&, isFirst](SizeValueType row, SizeValueType begin, SizeValueType end, const float * values) {
       const float share = alongY.share[row % height] * alongZ.share[row / height];
       for (SizeValueType x = begin; x < end; ++x)
       {
-        const float correction = factor * (values[x] / (share * alongX.share[x]));
+        const float correction = slope * (values[x] / (share * alongX.share[x]));
         field[row * width + x] = isFirst ? correction : field[row * width + x] + correction;
       }
     };
-    Smooth(work, sigma, band, readLack, correct);
+  };
+  Smooth(work, sigma, matched, readMask, add(true));
+  for (unsigned int n = 0; n < scale.corrections; ++n)
+  {
+    Smooth(work, sigma, matched, readLack, add(false));
+  }
+  if (!areAllSamples)
+  {
+    Smooth(work, sigma, RowsOf(band, hasSamples, false), readAll, add(true));
   }
 }
 
@@ -511,36 +564,41 @@ Refine(const MaskWork & work, const Scale & scale, const VoxelBand & band, const
     });
 }
 
-/** Whether one of the eight 2 x 2 x 2 blocks around a voxel is all of its class. */
-bool
-IsThick(const MaskWork & work, SizeValueType voxel)
+/** Marks the voxels of a run of which one of the eight 2 x 2 x 2 blocks around them is all of their class.
+ * \param isThick of the voxels of the row, 0 or 1 */
+void
+FindThick(const MaskWork & work, SizeValueType row, SizeValueType begin, SizeValueType end, VoxelSet & isThick)
 {
   const auto & size = work.size;
-  const SizeValueType index[3] = { voxel % size[0], voxel / size[0] % size[1], voxel / size[0] / size[1] };
-  SizeValueType near[3][3]; // along each axis: the indices before, at and behind the voxel, in the image
-  for (unsigned int axis = 0; axis < 3; ++axis)
+  const SizeValueType first = ClampedIndex(begin, 1, size[0]);
+  const SizeValueType last = std::min(end, size[0] - 1);
+  std::fill(
+    isThick.begin() + static_cast<std::ptrdiff_t>(begin), isThick.begin() + static_cast<std::ptrdiff_t>(end), 0);
+  VoxelSet columns(last - first + 3); // 4 rows across: 1 all outside, 2 all inside, 0 else; one more at either end
+  for (unsigned int block = 0; block < 4; ++block)
   {
-    for (SizeValueType step = 0; step < 3; ++step)
+    const std::uint8_t * rows[4];
+    for (unsigned int corner = 0; corner < 4; ++corner)
     {
-      near[axis][step] = ClampedIndex(index[axis] + step, 1, size[axis]);
+      const SizeValueType y = ClampedIndex(row % size[1] + (block & 1) + (corner & 1), 1, size[1]);
+      const SizeValueType z = ClampedIndex(row / size[1] + (block >> 1) + (corner >> 1), 1, size[2]);
+      rows[corner] = work.mask + (z * size[1] + y) * size[0];
+    }
+    const auto [a, b, c, d] = rows;
+    std::uint8_t * const columnOf = columns.data() + 1;
+    for (SizeValueType x = first; x <= last; ++x)
+    {
+      const int inside = (a[x] != 0) + (b[x] != 0) + (c[x] != 0) + (d[x] != 0);
+      columnOf[x - first] = static_cast<std::uint8_t>((inside == 0 ? 1 : 0) + (inside == 4 ? 2 : 0));
+    }
+    columns.front() = columns[1];
+    columns.back() = columns[columns.size() - 2];
+    for (SizeValueType x = begin; x < end; ++x)
+    {
+      const std::uint8_t * const here = columnOf + (x - first);
+      isThick[x] |= static_cast<std::uint8_t>((here[0] != 0) & ((here[0] == here[-1]) | (here[0] == here[1])));
     }
   }
-  for (unsigned int block = 0; block < 8; ++block)
-  {
-    bool isWhole = true;
-    for (unsigned int corner = 0; corner < 8 && isWhole; ++corner)
-    {
-      const SizeValueType x = near[0][(block & 1) + (corner & 1)];
-      const SizeValueType y = near[1][(block >> 1 & 1) + (corner >> 1 & 1)];
-      const SizeValueType z = near[2][(block >> 2) + (corner >> 2)];
-      isWhole = work.IsInside((z * size[1] + y) * size[0] + x) == work.IsInside(voxel);
-    }
-    if (isWhole)
-    {
-      return true;
-    }
-  }
-  return false;
 }
 
 /** Calls use(part) for the connected members of one class, part by part, in the order of their first voxels. Members
@@ -611,8 +669,16 @@ IsSpur(const MaskWork & work, const std::vector<SizeValueType> & part, const TTe
 void
 FindForms(const MaskWork & work, const VoxelBand & band, std::vector<VoxelForm> & forms)
 {
-  work.ForEachVoxel(
-    band, [&](SizeValueType voxel) { forms[voxel] = IsThick(work, voxel) ? VoxelForm::Thick : VoxelForm::Thin; });
+  work.ForEachRow([&](SizeValueType row) {
+    VoxelSet isThick(work.size[0]);
+    band.ForEachRun(row, [&](SizeValueType begin, SizeValueType end) {
+      FindThick(work, row, begin, end, isThick);
+      for (SizeValueType x = begin; x < end; ++x)
+      {
+        forms[row * work.size[0] + x] = isThick[x] != 0 ? VoxelForm::Thick : VoxelForm::Thin;
+      }
+    });
+  });
   const auto isThin = [&forms](SizeValueType voxel) { return forms[voxel] != VoxelForm::Thick; };
   ForEachPart(work, band, isThin, [&](const std::vector<SizeValueType> & part) {
     const VoxelForm form = part.size() >= SmallestSheet ? VoxelForm::Sheet

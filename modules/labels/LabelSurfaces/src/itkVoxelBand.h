@@ -83,21 +83,37 @@ public:
     return wide;
   }
 
+  /** The voxels of this band in the rows that pass a test. */
+  template <typename TTest>
+  VoxelBand
+  Selected(const TTest & test) const
+  {
+    VoxelBand selected(*this);
+    for (SizeValueType row = 0; row < m_Rows.size(); ++row)
+    {
+      selected.m_Rows[row] = test(row) ? m_Rows[row] : 0;
+    }
+    return selected;
+  }
+
 private:
   /** Widens along y or z: \a length rows, \a step numbers apart. */
   void
   Widen(SizeValueType step, SizeValueType length, SizeValueType reach)
   {
-    const std::vector<std::uint64_t> rows = m_Rows;
-    for (SizeValueType row = 0; reach > 0 && row < rows.size(); ++row)
+    reach = std::min(reach, length - 1);
+    for (SizeValueType reached = 0; reached < reach;)
     {
-      const SizeValueType position = row / step % length;
-      const SizeValueType first = position - std::min(position, reach);
-      const SizeValueType last = std::min(position + reach, length - 1);
-      for (SizeValueType n = first; n <= last; ++n)
+      // Without a gap, also beside the ends of the image: each row is reached over rows between it and its origin.
+      const SizeValueType further = std::min(reached + 1, reach - reached);
+      const std::vector<std::uint64_t> rows = m_Rows;
+      for (SizeValueType row = 0; row < rows.size(); ++row)
       {
-        m_Rows[row] |= rows[row - position * step + n * step];
+        const SizeValueType position = row / step % length;
+        m_Rows[row] |= position >= further ? rows[row - further * step] : 0;
+        m_Rows[row] |= position + further < length ? rows[row + further * step] : 0;
       }
+      reached += further;
     }
   }
 
