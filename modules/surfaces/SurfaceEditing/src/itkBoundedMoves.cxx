@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 namespace itk
@@ -205,7 +204,7 @@ void
 BoundedMoves::PutBackMeeting(rhombic::StagedProgress & progress, double stageEnd)
 {
   const TriangleTree tree(m_Surface); // keeps the places that triangles had before they are put back
-  std::set<std::uint32_t> putBack;
+  std::vector<std::uint32_t> putBack;
   m_Next = m_Surface.GetPoints();
   this->BeginRetreats();
   auto meeting = FindCrossingTriangles(tree, m_Fans, TriangleContact::Touching, &progress, stageEnd);
@@ -214,10 +213,11 @@ BoundedMoves::PutBackMeeting(rhombic::StagedProgress & progress, double stageEnd
     progress.Completed(0);
     const auto latest = this->Retreat(meeting);
     m_Surface.GetPoints() = m_Next;
-    putBack.insert(latest.begin(), latest.end());
-    const TriangleTree others(m_Surface, { putBack.begin(), putBack.end() });
-    meeting = FindCrossingTriangles(tree, latest, TriangleContact::Touching);
-    const auto more = FindCrossingTriangles(others, latest, TriangleContact::Touching);
+    putBack.insert(putBack.end(), latest.begin(), latest.end());
+    SortUnique(putBack);
+    const TriangleTree others(m_Surface, putBack);
+    meeting = FindCrossingTriangles(tree, m_Fans, latest, TriangleContact::Touching);
+    const auto more = FindCrossingTriangles(others, m_Fans, latest, TriangleContact::Touching);
     meeting.insert(meeting.end(), more.begin(), more.end());
   }
 }

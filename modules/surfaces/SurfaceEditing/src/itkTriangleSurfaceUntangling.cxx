@@ -158,7 +158,7 @@ Untangle(TriangleSurface & surface,
     }
     touched.insert(touched.end(), changed.begin(), changed.end());
     SortUnique(touched);
-    crossing = FindCrossingTriangles(tree, changed);
+    crossing = FindCrossingTriangles(tree, fans, changed);
     progress.Completed(1);
     if (crossing.size() < fewest && HaveAreas(surface, touched))
     {

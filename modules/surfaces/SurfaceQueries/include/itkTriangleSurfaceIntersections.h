@@ -61,6 +61,7 @@ FindCrossingTriangles(const TriangleTree & tree,
 /** The same for the triangles of \a candidates that cross any others, and for these others. */
 std::vector<std::uint32_t>
 FindCrossingTriangles(const TriangleTree & tree,
+                      const TrianglesOfPoints & fans,
                       const std::vector<std::uint32_t> & candidates,
                       TriangleContact least = TriangleContact::Crossing);
 

@@ -343,12 +343,8 @@ public:
   {
     const std::size_t begin = m_Parts[part];
     const std::size_t end = m_Parts[part + 1];
-    const TriangleTree::Leaf ofPart{ m_Tree.GetLeaf(begin).begin(), m_Tree.GetLeaf(end - 1).end() };
-    Box around = m_Tree.GetTriangleBox(*ofPart.begin());
-    for (const std::uint32_t triangle : ofPart)
-    {
-      around.Add(m_Tree.GetTriangleBox(triangle));
-    }
+    const TriangleTree::Leaf ofPart = this->TrianglesOf(part);
+    const Box around = this->BoxAround(ofPart);
     near.Start(around);
     this->AddTriangles(ofPart, around, near);
     m_Tree.VisitLeaves(around, stride == 1 ? end : 0, [&](std::size_t leaf) {
@@ -358,19 +354,58 @@ public:
         this->AddTriangles(m_Tree.GetLeaf(leaf), around, near);
       }
     });
+    this->VisitContacts(near, ofPart.size(), visit);
+    return ofPart.size();
+  }
+
+  /** Calls \a visit(a, b, contact) for pairs of a triangle in a part and another of the part, or of another tree of the
+   * same surface, which may hold the part's triangles, too: such pairs may come twice. */
+  template <typename TVisitor>
+  void
+  TestPartAgainst(const TriangleTree & others, std::size_t part, Neighborhood & near, const TVisitor & visit) const
+  {
+    const TriangleTree::Leaf ofPart = this->TrianglesOf(part);
+    const Box around = this->BoxAround(ofPart);
+    near.Start(around);
+    this->AddTriangles(ofPart, around, near);
+    others.VisitLeaves(around, 0, [&](std::size_t leaf) { this->AddTriangles(others.GetLeaf(leaf), around, near); });
+    this->VisitContacts(near, ofPart.size(), visit);
+  }
+
+private:
+  TriangleTree::Leaf
+  TrianglesOf(std::size_t part) const
+  {
+    return { m_Tree.GetLeaf(m_Parts[part]).begin(), m_Tree.GetLeaf(m_Parts[part + 1] - 1).end() };
+  }
+
+  Box
+  BoxAround(const TriangleTree::Leaf & triangles) const
+  {
+    Box around = m_Tree.GetTriangleBox(*triangles.begin());
+    for (const std::uint32_t triangle : triangles)
+    {
+      around.Add(m_Tree.GetTriangleBox(triangle));
+    }
+    return around;
+  }
+
+  /** Tests the pairs of a neighbourhood whose first is among the first \a count members. */
+  template <typename TVisitor>
+  void
+  VisitContacts(Neighborhood & near, std::size_t count, const TVisitor & visit) const
+  {
     const auto & triangles = m_Tree.GetSurface().GetTriangles();
-    near.VisitPairs(ofPart.size(), [&](const Neighborhood::Member & a, const Neighborhood::Member & b) {
-      if (!HaveCommonCorner(triangles[a.triangle], b.unfoldedCorners))
+    near.VisitPairs(count, [&](const Neighborhood::Member & a, const Neighborhood::Member & b) {
+      if (a.triangle != b.triangle && !HaveCommonCorner(triangles[a.triangle], b.unfoldedCorners))
       {
         visit(a.triangle,
               b.triangle,
               FindContact(m_Tree.GetSurface().GetPoints(), triangles[a.triangle], triangles[b.triangle]));
       }
     });
-    return ofPart.size();
   }
 
-private:
   void
   AddTriangles(const TriangleTree::Leaf & triangles, const Box & around, Neighborhood & near) const
   {
@@ -519,17 +554,31 @@ FindCrossingTriangles(const TriangleTree & tree,
 }
 
 std::vector<std::uint32_t>
-FindCrossingTriangles(const TriangleTree & tree, const std::vector<std::uint32_t> & candidates, Contact least)
+FindCrossingTriangles(const TriangleTree & tree,
+                      const TrianglesOfPoints & fans,
+                      const std::vector<std::uint32_t> & candidates,
+                      Contact least)
 {
-  constexpr std::size_t blockSize = 1024;
   const TriangleSurface & surface = tree.GetSurface();
-  const auto & triangles = surface.GetTriangles();
-  return CollectIds(candidates.size(), blockSize, [&](std::size_t begin, std::size_t end, auto & found) {
-    for (std::size_t n = begin; n < end; ++n)
+  std::vector<std::uint32_t> corners;
+  for (const std::uint32_t candidate : candidates)
+  {
+    const TriangleType & triangle = surface.GetTriangles()[candidate];
+    corners.insert(corners.end(), triangle.begin(), triangle.end());
+  }
+  SortUnique(corners);
+  std::vector<std::uint8_t> areUnfolded(surface.GetNumberOfPoints()); // none but corners of candidates
+  rhombic::ForEachInBlocks(corners.size(), BlockOfPoints, [&](std::size_t n) {
+    areUnfolded[corners[n]] = Fan(surface, fans, corners[n]).IsUnfolded();
+  });
+  const TriangleTree ofCandidates(surface, candidates);
+  const ContactSearch search(ofCandidates, std::move(areUnfolded), TrianglesOfSample);
+  return CollectIds(search.GetNumberOfParts(), PartsOfBlock, [&](std::size_t begin, std::size_t end, auto & found) {
+    Neighborhood near;
+    for (std::size_t part = begin; part < end; ++part)
     {
-      const std::uint32_t a = candidates[n];
-      tree.VisitTriangles(tree.GetTriangleBox(a), [&](std::uint32_t b) {
-        if (a != b && FindContact(surface.GetPoints(), triangles[a], triangles[b]) >= least)
+      search.TestPartAgainst(tree, part, near, [&](std::uint32_t a, std::uint32_t b, Contact contact) {
+        if (contact >= least)
         {
           found.insert(found.end(), { a, b });
         }
