@@ -13,6 +13,9 @@
 #include <thread>
 #include <vector>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -32,6 +35,17 @@ RaiseFileLimit()
     limit.rlim_cur = limit.rlim_max;
     setrlimit(RLIMIT_NOFILE, &limit);
   }
+}
+
+/** Has freed memory kept for the next volume or mesh: fresh pages of the system cost up to a tenth of the time. */
+void
+KeepFreedMemory()
+{
+#ifdef __GLIBC__
+  constexpr int largestKept = 1 << 30;
+  mallopt(M_MMAP_THRESHOLD, largestKept);
+  mallopt(M_TRIM_THRESHOLD, largestKept);
+#endif
 }
 
 /** Throws Failure when this process may not start the threads that ITK's pool starts at once, where ITK would end it.
@@ -133,6 +147,7 @@ main(int argc, char ** argv)
   setenv("EGL_LOG_LEVEL", "fatal", 0); // Mesa would warn of missing drivers beside our own sentence
   RemoveTemporaryFilesOnSignals();
   RaiseFileLimit();
+  KeepFreedMemory();
   Console console;
   CommandLine commandLine;
   const std::vector<std::string> words(argv + 1, argv + argc);

@@ -18,7 +18,7 @@ using LabelType = FCCLabelWeights::LabelType;
 using Lattice = FCCImage<LabelType>;
 
 constexpr unsigned int MostCorrections = 6;
-constexpr unsigned int FewestTogether = 2;  // corrections of all labels
+constexpr unsigned int FewestTogether = 1;  // corrections of all labels
 constexpr double SettledOffset = 0.06;      // of weights, 0.03 voxels: the next would be about 0.004 voxels
 constexpr double FarthestOffset = 2.0;      // of weights; twice as far as walls move, in voxels
 constexpr double LargestShareAlone = 0.125; // of the lattice's sites: boxes of labels that are corrected alone

@@ -107,11 +107,13 @@ private:
       // Without a gap, also beside the ends of the image: each row is reached over rows between it and its origin.
       const SizeValueType further = std::min(reached + 1, reach - reached);
       const std::vector<std::uint64_t> rows = m_Rows;
-      for (SizeValueType row = 0; row < rows.size(); ++row)
+      for (SizeValueType first = 0; first < rows.size(); first += length * step)
       {
-        const SizeValueType position = row / step % length;
-        m_Rows[row] |= position >= further ? rows[row - further * step] : 0;
-        m_Rows[row] |= position + further < length ? rows[row + further * step] : 0;
+        for (SizeValueType row = first; row + further * step < first + length * step; ++row)
+        {
+          m_Rows[row] |= rows[row + further * step];
+          m_Rows[row + further * step] |= rows[row];
+        }
       }
       reached += further;
     }
