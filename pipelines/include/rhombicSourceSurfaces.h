@@ -41,7 +41,8 @@ struct MeshedSurface
   std::optional<IsosurfaceVolume> isosurface; ///< for isosurfaces in files: volume of the whole isosurface
 
   PartRemoval parts;
-  Refinement refinement; ///< for files
+  Refinement refinement;                         ///< for files
+  itk::TriangleSurface::ConstPointer forDrawing; ///< for labels in pictures: all their parts in fewer triangles
 
   std::string identity; ///< this and all below: of the surface as its file holds it
   itk::SizeValueType points = 0;

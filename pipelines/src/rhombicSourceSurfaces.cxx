@@ -7,6 +7,7 @@
 #include "itkTriangleSurfaceIntersections.h"
 #include "itkTriangleSurfaceForRendering.h"
 #include "itkTriangleSurfaceSmoothing.h"
+#include "rhombicForEachBlock.h"
 
 #include <algorithm>
 #include <utility>
@@ -103,9 +104,23 @@ AddLabels(const SurfaceMaking & making, const LoadedSource & loaded, std::vector
   {
     ExtractSurfaces(mesh);
   }
+  std::vector<itk::TriangleSurface::ConstPointer> forDrawing(mesh.labels.size());
+  if (!isForFiles && !making.part)
+  {
+    constexpr double unseen = 0.05; // of a voxel's shortest edge: in pictures half a pixel and less
+    ForEachOnThreads(mesh.labels.size(), [&mesh](std::size_t n) {
+      const auto shaded = itk::TriangleSurface::New();
+      shaded->Graft(mesh.labels[n].scene.surface);
+      SmoothTriangleSurfaceNormals(*shaded);
+      mesh.labels[n].scene.surface = shaded;
+    });
+    const auto & edges = GeometryOf(loaded.labels->scan.image).GetSpacing();
+    forDrawing = SimplifySurfacesForRendering(mesh, unseen * std::min({ edges[0], edges[1], edges[2] }));
+  }
   for (std::size_t n = 0; n < mesh.labels.size(); ++n)
   {
     MeshedSurface & surface = surfaces.emplace_back();
+    surface.forDrawing = forDrawing[n];
     surface.scene = std::exchange(mesh.labels[n].scene, {});
     surface.label = std::move(mesh.labels[n]);
     surface.extracted = extracted[n];
@@ -185,7 +200,7 @@ FinishSurface(const SurfaceMaking & making, MeshedSurface & surface)
       settings.maximumMove = finish.smoothing.FindLargestMove(MeanSpacingOf(*surface.lattice));
       SmoothTriangleSurface(*finished, settings);
     }
-    itk::SmoothTriangleSurfaceNormals(*finished);
+    surface.forDrawing ? void() : itk::SmoothTriangleSurfaceNormals(*finished);
   }
   return true;
 }

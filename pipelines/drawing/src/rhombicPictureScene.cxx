@@ -72,6 +72,10 @@ AddSurface(MeshedSurface & surface, PictureScene & scene)
   }
   const SurfaceMeasures & measures = surface.measures;
   scene.surfaces.push_back(surface.scene);
+  if (surface.forDrawing && surface.parts.IsNothing())
+  {
+    scene.surfaces.back().surface = surface.forDrawing;
+  }
   std::string name = surface.scene.name;
   std::replace(name.begin(), name.end(), '_', ' ');
   scene.rows.push_back({ name,

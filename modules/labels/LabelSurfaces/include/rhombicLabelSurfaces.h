@@ -116,6 +116,13 @@ RefineWalls(LabelMesh & mesh, const SurfaceFinish & finish, double spacing, cons
 void
 ExtractSurfaces(LabelMesh & mesh);
 
+/** The surface of each label, as ExtractSurfaces() has set it, with its normals and fewer triangles: each wall is
+ * simplified once for both of its labels (itk::SimplifySheetForRendering()), and the curves where walls meet stay.
+ *
+ * \param distance in mm by which a picture does not change */
+std::vector<itk::TriangleSurface::ConstPointer>
+SimplifySurfacesForRendering(const LabelMesh & mesh, double distance);
+
 } // namespace rhombic
 
 #endif

@@ -163,4 +163,61 @@ OptimizeTriangleSurfaceForRendering(TriangleSurface & surface)
   surface.Modified();
 }
 
+TriangleSurface::TrianglesContainer
+SimplifySheetForRendering(const TriangleSurface::PointsContainer & points,
+                          const TriangleSurface::TrianglesContainer & triangles,
+                          double distance)
+{
+  if (triangles.empty())
+  {
+    return {};
+  }
+  std::vector<PointId> ids; // of the sheet's points, ascending
+  for (const auto & triangle : triangles)
+  {
+    ids.insert(ids.end(), triangle.begin(), triangle.end());
+  }
+  SortUnique(ids);
+  TriangleSurface::PointsContainer places(ids.size()); // from the first, which keeps digits
+  const PositionType origin = ToPosition(points[ids.front()]);
+  std::vector<PointId> numbers(ids.back() - ids.front() + 1);
+  for (std::size_t n = 0; n < ids.size(); ++n)
+  {
+    places[n] = ToPoint(Subtract(ToPosition(points[ids[n]]), origin));
+    numbers[ids[n] - ids.front()] = static_cast<PointId>(n);
+  }
+  std::vector<PointId> corners;
+  corners.reserve(3 * triangles.size());
+  for (const auto & triangle : triangles)
+  {
+    for (const PointId point : triangle)
+    {
+      corners.push_back(numbers[point - ids.front()]);
+    }
+  }
+  constexpr std::size_t bytes = sizeof(TriangleSurface::PointType);
+  const float * const coordinates = places.front().data();
+  const float scale = meshopt_simplifyScale(coordinates, places.size(), bytes);
+  TriangleSurface::TrianglesContainer fewer(triangles.size());
+  const std::size_t size = meshopt_simplify(fewer.front().data(),
+                                            corners.data(),
+                                            corners.size(),
+                                            coordinates,
+                                            places.size(),
+                                            bytes,
+                                            0,
+                                            static_cast<float>(distance) / scale,
+                                            meshopt_SimplifyLockBorder,
+                                            nullptr);
+  fewer.resize(size / 3);
+  for (auto & triangle : fewer)
+  {
+    for (PointId & point : triangle)
+    {
+      point = ids[point];
+    }
+  }
+  return fewer;
+}
+
 } // namespace itk
