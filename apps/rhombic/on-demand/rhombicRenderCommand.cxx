@@ -309,17 +309,25 @@ ParseSizeOfPage(const std::string & text)
 void
 CheckOptionsOfPage(const RenderOptions & options)
 {
+  const RenderOptions none;
   const std::pair<bool, const char *> others[] = { { options.turntable > 0, "--turntable" },
                                                    { options.lightbox > 0, "--lightbox" },
                                                    { !options.cuts.empty(), "--cut" },
                                                    { !options.planes.empty(), "--show-slice" },
                                                    { !options.size.empty(), "--size" },
-                                                   { options.zoom != 1.0, "--zoom" },
+                                                   { options.zoom != none.zoom, "--zoom" },
                                                    { options.pixelSize.has_value(), "--pixel-size" },
+                                                   { options.hasSameScale, "--same-scale" },
                                                    { !options.focus.empty(), "--focus" },
                                                    { options.isPerspective, "--perspective" },
                                                    { !options.background.empty(), "--background" },
                                                    { !options.style.empty(), "--style" },
+                                                   { options.hasNoShadows, "--no-shadows" },
+                                                   { options.hasNoSilhouettes, "--no-silhouettes" },
+                                                   { options.annotations != none.annotations, "--annotate" },
+                                                   { options.hasNoLetters, "--no-letters" },
+                                                   { options.isLandscape, "--landscape" },
+                                                   { options.pixelsPerInch != none.pixelsPerInch, "--dpi" },
                                                    { options.isNeurological, "--neurological" } };
   for (const auto & [isGiven, name] : others)
   {
@@ -329,6 +337,19 @@ CheckOptionsOfPage(const RenderOptions & options)
                     std::string(name) + " has no meaning for an interactive page (.html), whose reader turns, cuts and "
                                         "enlarges it; leave it out, or name a picture.");
     }
+  }
+}
+
+/** Throws Failure(Usage) for options that only interactive pages have. */
+void
+RefuseOptionsOfPage(const RenderOptions & options)
+{
+  const bool hasSize = options.largestPage != RenderOptions().largestPage;
+  if (hasSize || options.hasNoSlices)
+  {
+    throw Failure(FailureKind::Usage,
+                  std::string(hasSize ? "--page-size" : "--no-slices") +
+                    " is for an interactive page; leave it out, or name one: -o page.html.");
   }
 }
 
@@ -528,6 +549,10 @@ Render(const RenderOptions & options, const CommandContext & context)
     throw Failure(FailureKind::Usage, "No picture is named; give one with -o, for example -o picture.png.");
   }
   CheckEnding(options);
+  if (!IsPagePath(options.picture))
+  {
+    RefuseOptionsOfPage(options);
+  }
   std::vector<MadeFile> outputs = IsPagePath(options.picture) ? RenderPageOf(options, context)
                                   : options.isSheet           ? RenderSheetOf(options, context)
                                                               : RenderPictures(options, context);

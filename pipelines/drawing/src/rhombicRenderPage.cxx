@@ -43,11 +43,10 @@ AnnotationsOf(const PictureScene & scene)
 void
 DrawViews(const RenderPageSettings & settings,
           const PictureScene & source,
+          const Scene & scene,
           SurfaceRenderer & renderer,
           PageContent & page)
 {
-  Scene scene;
-  scene.surfaces = ShadedSurfaces(source);
   RenderSettings render = SettingsOf(settings, SideOfView);
   const Annotations annotations = AnnotationsOf(source);
   render.margins = MarginsOf(annotations, render.width, render.height, settings.views.front().frame);
@@ -57,12 +56,21 @@ DrawViews(const RenderPageSettings & settings,
     Annotate(drawn[n].picture, drawn[n].projection.value(), annotations);
     page.views.push_back({ std::move(drawn[n].picture), settings.views[n].name });
   }
+}
+
+void
+DrawTurntable(const RenderPageSettings & settings,
+              const PictureScene & source,
+              const Scene & scene,
+              SurfaceRenderer & renderer,
+              PageContent & page)
+{
   std::vector<View> turn;
   for (int n = 0; n < FramesOfTurntable; ++n)
   {
     turn.push_back(ObliqueView(360.0 * n / FramesOfTurntable, 0.0));
   }
-  render = SettingsOf(settings, SideOfTurntable);
+  RenderSettings render = SettingsOf(settings, SideOfTurntable);
   render.centre = CentreOf(BoxAround(source.surfaces));
   for (RenderedView & view : renderer.Render(scene, render, turn))
   {
@@ -110,6 +118,39 @@ TitleOf(const RenderPageSettings & settings, const PictureScene & scene)
   return settings.title.empty() ? scene.examination + ": " + shown : settings.title;
 }
 
+/** Whether some words stand in a text, in lower case. */
+bool
+HasOneOf(const std::string & text, const std::vector<std::string> & words)
+{
+  return std::any_of(
+    words.begin(), words.end(), [&text](const std::string & word) { return text.find(word) != std::string::npos; });
+}
+
+/** A sentence about what tells the patient from others: whether the face can be recognised follows from the part of the
+ * body that DICOM names, and from the names of surfaces; where neither tells, the sentence leaves it open. */
+std::string
+DescribePrivacy(const PictureScene & scene, bool hasSlices)
+{
+  const std::vector<std::string> headWords{ "head",  "skull", "brain", "face",  "facial", "orbit",
+                                            "sinus", "jaw",   "mandib", "whole", "eye",    "cranio" };
+  const std::vector<std::string> skinWords{ "skin", "body", "outline", "head", "face", "facial", "soft tissue", "scalp" };
+  const std::string examination = LowerCase(scene.examination);
+  bool hasHead = HasOneOf(examination, headWords);
+  bool hasSkin = hasSlices;
+  for (const LegendRow & row : scene.rows)
+  {
+    const std::string name = LowerCase(row.name);
+    hasHead = hasHead || HasOneOf(name, headWords);
+    hasSkin = hasSkin || HasOneOf(name, skinWords);
+  }
+  const bool isOtherPart = examination.find(' ') != std::string::npos; // "CT chest"
+  const std::string none = "privacy: no name, number or date of the patient is in this file";
+  return !hasSkin || (isOtherPart && !hasHead) ? none
+         : hasHead ? none + ", but the head is, and a face can be recognised from it: guard the file like a photograph "
+                            "of the patient"
+                   : none + "; if the head is in the scan, the face can be recognised from skin and slices";
+}
+
 PageContent
 ContentOf(const RenderPageSettings & settings, const PictureScene & scene)
 {
@@ -133,10 +174,8 @@ ContentOf(const RenderPageSettings & settings, const PictureScene & scene)
     page.scan = &*scene.scan;
     page.box = BoxOf(*scene.scan);
     page.window = WindowFromText(settings.slice.window, *scene.scan);
-    page.facts.push_back(
-      "privacy: no name, number or date of the patient is in this file; if the head is in the scan, the "
-      "face can be recognised from skin and slices");
   }
+  page.facts.push_back(DescribePrivacy(scene, page.scan != nullptr));
   return page;
 }
 
@@ -200,11 +239,16 @@ RenderPage(const RenderPageSettings & settings, const Events & events, std::opti
   NeedPlaces(PlanesOf(settings), source.surfaces.rules);
   PictureScene scene = MakePictureScene(source, std::move(volume), settings.hasSlices, events);
   OpenEnclosing(source.surfaces, {}, scene, events);
-  events.Progress("drawing the page", 0.0);
   PageContent content = ContentOf(settings, scene);
-  DrawViews(settings, scene, renderer, content);
+  events.Note("page: " + content.facts.back());
+  Scene drawn;
+  drawn.surfaces = ShadedSurfaces(scene);
+  events.Progress("drawing views", 0.0);
+  DrawViews(settings, scene, drawn, renderer, content);
+  events.Progress("turning the surfaces", 0.0);
+  DrawTurntable(settings, scene, drawn, renderer, content);
+  events.Progress("drawing slices", 0.0);
   DrawSlices(settings, scene, content);
-  events.Progress("drawing the page", 1.0);
   const MadePage page = MakeInteractivePage(content, events);
   for (const std::string & note : page.weight.notes)
   {

@@ -154,6 +154,7 @@ DescribeMesh(const PageMesh & mesh)
     sheets.push_back({ sheet.front, sheet.back, sheet.triangles });
   }
   return { { "origin", mesh.origin },
+           { "extent", mesh.extent },
            { "quantum", mesh.quantum },
            { "points", mesh.points },
            { "triangles", mesh.triangles },

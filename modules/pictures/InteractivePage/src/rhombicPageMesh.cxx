@@ -57,7 +57,8 @@ PlaceQuanta(const Surface & surface, PageMesh & mesh)
   constexpr double largest = 65535.0;
   const std::array<double, 6> bounds = surface.GetBounds();
   mesh.origin = { bounds[0], bounds[2], bounds[4] };
-  const double side = std::max({ bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4] });
+  mesh.extent = { bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4] };
+  const double side = *std::max_element(mesh.extent.begin(), mesh.extent.end());
   mesh.quantum = side > 0.0 ? side / largest : 1.0;
 }
 

@@ -27,6 +27,7 @@ struct PageSheet
 struct PageMesh
 {
   Vector3 origin{};
+  Vector3 extent{};     ///< mm along x, y and z
   double quantum = 0.0; ///< mm
   std::size_t points = 0;
   std::size_t triangles = 0;

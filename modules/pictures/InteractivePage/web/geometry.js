@@ -6,6 +6,8 @@ const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const along = (from, way, share) => [from[0] + share * way[0], from[1] + share * way[1], from[2] + share * way[2]];
 const minus = (a, b) => along(a, b, -1);
 const length = (a) => Math.sqrt(dot(a, a));
+const unit = (a) => a.map((x) => x / length(a));
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
 
 function boxOf(points) {
@@ -61,29 +63,49 @@ function writeScale(element, scale) {
   element.querySelector('.scale span').textContent = size >= 10 ? size / 10 + ' cm' : size + ' mm';
 }
 
-/** Where a straight line along \a look first meets a visible surface, at places right and up of the origin. Points on
- * the side of the plane that is cut away do not count; translucent surfaces only if there is no other. */
-function castRay(organs, frame, right, up, cut) {
+/** How a state is seen: positionOf() gives CSS pixels right of and below the middle of the picture, rayAt() the line of
+ * sight there, as the axes of a view along it and its places right and up of the origin. */
+function cameraOf(state, height) {
+  const frame = frameOf(state.azimuth, state.elevation);
+  const distance = state.perspective ? 2.3 * height * state.scale : Infinity; // of the eye from the centre: 24.5 degrees of height
+  const positionOf = (point) => {
+    const way = minus(point, state.centre);
+    const scale = state.scale * (state.perspective ? Math.max(1 + dot(way, frame.look) / distance, 1e-3) : 1);
+    return [dot(way, frame.right) / scale, -dot(way, frame.up) / scale];
+  };
+  const rayAt = (x, y) => {
+    const across = along(along(state.centre, frame.right, x * state.scale), frame.up, -y * state.scale);
+    if (!state.perspective) return { ...frame, x: dot(across, frame.right), y: dot(across, frame.up), nearest: -Infinity };
+    const eye = along(state.centre, frame.look, -distance);
+    const look = unit(minus(across, eye)), right = unit(cross(look, frame.up)), up = cross(right, look);
+    return { right, up, look, x: dot(eye, right), y: dot(eye, up), nearest: dot(eye, look) };
+  };
+  return { frame, distance, positionOf, rayAt };
+}
+
+/** Where a line of sight first meets a visible surface. Points on the side of the plane that is cut away do not count;
+ * translucent surfaces only if there is no other. */
+function castRay(organs, ray, cut) {
   let best = null;
   for (const organ of organs) {
     if (!organ.visible) continue;
     const middle = centreOf(organ.box);
-    if (Math.abs(dot(middle, frame.right) - right) > reachOf(organ.box, frame.right) ||
-        Math.abs(dot(middle, frame.up) - up) > reachOf(organ.box, frame.up)) continue;
-    const depth = depthOf(organ, frame, right, up, cut);
+    if (Math.abs(dot(middle, ray.right) - ray.x) > reachOf(organ.box, ray.right) ||
+        Math.abs(dot(middle, ray.up) - ray.y) > reachOf(organ.box, ray.up)) continue;
+    const depth = depthOf(organ, ray, cut);
     if (depth === null) continue;
     const solid = organ.shown >= 0.5;
     if (!best || (solid && !best.solid) || (solid === best.solid && depth < best.depth)) best = { organ, depth, solid };
   }
-  if (!best) return null;
-  const at = [0, 1, 2].map((axis) => right * frame.right[axis] + up * frame.up[axis] + best.depth * frame.look[axis]);
-  return { organ: best.organ, point: at };
+  return best ? { organ: best.organ, point: pointOn(ray, best.depth) } : null;
 }
 
-/** The least depth at which a line meets a surface; null where it does not. */
-function depthOf(organ, frame, right, up, cut) {
+const pointOn = (ray, depth) => [0, 1, 2].map((axis) => ray.x * ray.right[axis] + ray.y * ray.up[axis] + depth * ray.look[axis]);
+
+/** The least depth at which a line of sight meets a surface; null where it does not. */
+function depthOf(organ, ray, cut) {
   const { points, triangles } = organ;
-  const { right: r, up: u, look: l } = frame;
+  const { right: r, up: u, look: l, x: right, y: up } = ray;
   let least = null;
   for (let t = 0; t < triangles.length; t += 3) {
     const a = 3 * triangles[t], b = 3 * triangles[t + 1], c = 3 * triangles[t + 2];
@@ -100,11 +122,8 @@ function depthOf(organ, frame, right, up, cut) {
     if (sum === 0) continue;
     const depthAt = (n) => points[n] * l[0] + points[n + 1] * l[1] + points[n + 2] * l[2];
     const depth = (wa * depthAt(a) + wb * depthAt(b) + wc * depthAt(c)) / sum;
-    if (least !== null && depth >= least) continue;
-    if (cut) {
-      const at = [0, 1, 2].map((axis) => right * r[axis] + up * u[axis] + depth * l[axis]);
-      if (dot(at, cut.normal) > cut.offset) continue;
-    }
+    if (depth < ray.nearest || (least !== null && depth >= least)) continue;
+    if (cut && dot(pointOn(ray, depth), cut.normal) > cut.offset) continue;
     least = depth;
   }
   return least;

@@ -60,35 +60,51 @@ function describeView(azimuth, elevation) {
   return 'The structures, seen ' + (view ? 'from ' + view.from : `${round}\u00b0 from the front towards the left, ${Math.round(elevation)}\u00b0 up`);
 }
 
-/** Starts the 3D scene, or where that fails the turntable; changes between them when the context is lost and restored. */
-function chooseLayer(viewer) {
-  const canvas = document.getElementById('canvas'), image = document.getElementById('turntable');
-  const turntable = new Turntable(viewer);
-  const use = (scene, why) => {
-    viewer.scene = scene;
-    viewer.turntable = scene ? null : turntable;
-    canvas.hidden = !scene;
-    image.hidden = Boolean(scene);
+/** Changes between the turntable and the 3D scene, also when the context is lost and restored. */
+class Layers {
+  constructor(viewer) {
+    this.viewer = viewer;
+    this.turntable = new Turntable(viewer);
+    this.canvas = document.getElementById('canvas');
+    this.canvas.addEventListener('webglcontextlost', (event) => {
+      event.preventDefault();
+      this.usePictures('the browser has taken back its graphics memory; 3D comes back when it gives it again');
+    });
+    this.canvas.addEventListener('webglcontextrestored', () => {
+      this.scene.load();
+      this.useScene();
+    });
+    this.usePictures('the surfaces are being read');
+  }
+
+  /** Starts the scene where that is possible. */
+  start3d() {
+    try {
+      this.scene = new Scene(this.canvas, this.viewer.organs, this.viewer.volume);
+      this.useScene();
+    } catch (error) {
+      this.usePictures(error.message);
+    }
+  }
+
+  useScene() {
+    this.show(this.scene);
+    tellLayer('Interactive 3D. This page is one file and asks nothing of any network.');
+  }
+
+  usePictures(why) {
+    this.show(null);
+    tellLayer('Pictures to turn' + (page.volume ? ' and slices to scroll' : '') + ', no free 3D: ' + why + '.');
+  }
+
+  show(scene) {
+    this.viewer.scene = scene;
+    this.viewer.turntable = scene ? null : this.turntable;
+    this.canvas.hidden = !scene;
+    this.turntable.image.hidden = Boolean(scene);
     for (const element of document.querySelectorAll('.needs3d')) element.hidden = !scene;
     document.querySelector('#scene .scale').hidden = !scene;
     document.body.dataset.layer = scene ? '3d' : 'pictures';
-    tellLayer(scene ? 'Interactive 3D. This page is one file and asks nothing of any network.'
-                    : 'Pictures to turn' + (page.volume ? ' and slices to scroll' : '') + ', no free 3D: ' + why + '.');
-    viewer.changed();
-  };
-  let scene = null;
-  canvas.addEventListener('webglcontextlost', (event) => {
-    event.preventDefault();
-    use(null, 'the browser has taken back its graphics memory; 3D comes back when it gives it again');
-  });
-  canvas.addEventListener('webglcontextrestored', () => {
-    scene.load();
-    use(scene);
-  });
-  try {
-    scene = new Scene(canvas, viewer.organs, viewer.volume);
-    use(scene);
-  } catch (error) {
-    use(null, error.message);
+    this.viewer.changed();
   }
 }

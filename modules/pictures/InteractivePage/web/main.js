@@ -9,17 +9,18 @@ const standardViews = [
 ];
 
 class Viewer {
-  constructor(organs) {
+  constructor(organs, volume) {
     this.organs = organs;
-    this.volume = null;
-    this.slices = [];
-    this.box = joinBoxes(organs.filter((organ) => organ.triangles.length > 0).map((organ) => organ.box));
+    this.volume = volume;
+    this.box = joinBoxes(organs.map((organ) => organ.box));
     const light = window.matchMedia('(prefers-color-scheme: light)');
     this.state = {
       azimuth: 0, elevation: 0, centre: centreOf(this.box), scale: 1, point: centreOf(this.box), window: page.volume ? page.volume.window : [1, 0],
       planes: [false, false, false], crosshair: true, outlines: true, cut: { kind: 'off', place: 0, flipped: false, normal: [0, -1, 0] },
-      points: [], marked: -1, isLight: light.matches,
+      points: [], marked: -1, isLight: light.matches, perspective: false,
     };
+    this.read = 0; // parts of the page's data
+    this.pause = 200; // ms of rest before a slow machine draws all
     light.addEventListener('change', () => { this.state.isLight = light.matches; this.changed(); });
     this.list = new List(this, document.getElementById('list'));
     const tools = document.getElementById('tools');
@@ -28,6 +29,7 @@ class Viewer {
     this.cutTool.element.classList.add('needs3d');
     this.measure = new Measure(this, tools);
     new Share(this, tools);
+    this.slices = volume ? planes.map((plane) => new SliceView(this, plane, document.getElementById('slices'))) : [];
     this.addViews();
     this.listen();
     new ResizeObserver(() => this.changed()).observe(document.getElementById('stage'));
@@ -44,6 +46,14 @@ class Viewer {
     const fit = make('button', { type: 'button', textContent: 'Fit', title: 'Fit what is shown (key 0)', className: 'needs3d' });
     fit.addEventListener('click', () => { this.fit(); this.changed(); });
     place.append(fit);
+    this.perspective = make('button', { type: 'button', textContent: 'Perspective', title: 'Near things larger (key p)', 'aria-pressed': 'false', className: 'needs3d' });
+    this.perspective.addEventListener('click', () => this.togglePerspective());
+    place.append(this.perspective);
+  }
+
+  togglePerspective() {
+    this.state.perspective = !this.state.perspective;
+    this.changed();
   }
 
   /** Turns to a view; at once where the reader wants little motion. */
@@ -102,10 +112,7 @@ class Viewer {
   pick(x, y) {
     const { state } = this;
     const canvas = document.getElementById('canvas');
-    const frame = frameOf(state.azimuth, state.elevation);
-    const right = dot(state.centre, frame.right) + (x - canvas.clientWidth / 2) * state.scale;
-    const up = dot(state.centre, frame.up) - (y - canvas.clientHeight / 2) * state.scale;
-    const hit = castRay(this.organs, frame, right, up, cutOf(state));
+    const hit = castRay(this.organs, cameraOf(state, canvas.clientHeight).rayAt(x - canvas.clientWidth / 2, y - canvas.clientHeight / 2), cutOf(state));
     if (this.measure.isOn) {
       if (hit) this.measure.add(hit.point);
       return;
@@ -189,6 +196,14 @@ class Viewer {
       this.zoom(Math.exp(-clamp(event.deltaY, -200, 200) / 500), event.clientX - box.left, event.clientY - box.top);
     }, { passive: false });
     canvas.addEventListener('keydown', (event) => this.press(event));
+    document.addEventListener('keydown', (event) => { if (event.key === 'Escape') this.escape(); });
+  }
+
+  /** Ends setting points; else nothing is marked any more. */
+  escape() {
+    document.getElementById('told').textContent = '';
+    if (this.measure.isOn) this.measure.turn(false);
+    else if (this.state.marked >= 0) this.mark(-1);
   }
 
   press(event) {
@@ -199,6 +214,7 @@ class Viewer {
     else if (event.key === '+' || event.key === '=' || event.key === '-') this.zoom(event.key === '-' ? 1 / 1.15 : 1.15, canvas.clientWidth / 2, canvas.clientHeight / 2);
     else if (event.key >= '1' && event.key <= '6') this.turnTo(standardViews[Number(event.key) - 1]);
     else if (event.key === '0') { this.fit(); this.changed(); }
+    else if (event.key === 'p') this.togglePerspective();
     else return;
     event.preventDefault();
   }
@@ -218,25 +234,28 @@ class Viewer {
     this.cutTool.update();
     this.measure.update();
     if (this.sliceTool) this.sliceTool.update();
+    this.perspective.setAttribute('aria-pressed', String(this.state.perspective));
     for (const slice of this.slices) slice.draw();
     if (this.scene) this.drawScene();
     if (this.turntable) this.turntable.draw();
     this.drawOverlay();
   }
 
-  /** Draws without shadows while the view moves on slow machines, and with them at rest. */
+  /** Draws coarsely at first and, on slow machines, while the view moves; all when it rests. */
   drawScene() {
     const { state, scene } = this;
-    const start = performance.now();
-    const isFine = this.isFast !== false || this.isResting;
-    scene.draw(state, isFine);
-    if (this.isFast === undefined) {
-      scene.gl.readPixels(0, 0, 1, 1, scene.gl.RGBA, scene.gl.UNSIGNED_BYTE, new Uint8Array(4));
-      this.isFast = performance.now() - start < 40;
-    }
+    const isFine = this.isSlow === false || this.isResting;
     this.isResting = false;
-    clearTimeout(this.rest);
-    if (!isFine) this.rest = setTimeout(() => { this.isResting = true; if (this.scene) this.drawScene(); }, 200);
+    const start = performance.now();
+    scene.draw(state, isFine);
+    if (this.isSlow !== false) {
+      scene.wait();
+      const time = performance.now() - start;
+      if (isFine) this.pause = clamp(time, 200, 1000);
+      else if (this.isSlow === undefined) this.isSlow = time > 40;
+      clearTimeout(this.rest);
+      if (!isFine) this.rest = setTimeout(() => { this.isResting = true; this.changed(); }, this.isSlow ? this.pause : 0);
+    }
     const frame = frameOf(state.azimuth, state.elevation);
     const element = document.getElementById('scene');
     writeLetters(element, frame);
@@ -254,10 +273,10 @@ class Viewer {
     if (!this.scene) return;
     const { state } = this;
     const context = overlay.getContext('2d');
-    const frame = frameOf(state.azimuth, state.elevation);
+    const camera = cameraOf(state, overlay.clientHeight);
     const positionOf = (point) => {
-      const way = minus(point, state.centre);
-      return [overlay.width / 2 + dot(way, frame.right) * ratio / state.scale, overlay.height / 2 - dot(way, frame.up) * ratio / state.scale];
+      const [x, y] = camera.positionOf(point);
+      return [overlay.width / 2 + x * ratio, overlay.height / 2 + y * ratio];
     };
     this.measure.drawOn(context, positionOf, ratio, () => true);
     if (state.crosshair && this.volume) {
@@ -273,15 +292,19 @@ class Viewer {
     }
   }
 
-  /** Adds the slices, when the scan's values are read. */
-  addVolume(volume) {
-    this.volume = volume;
-    const place = document.getElementById('slices');
-    this.slices = planes.map((plane) => new SliceView(this, plane, place));
-    if (this.scene) {
-      this.scene.volume = volume;
-      this.scene.loadVolume();
-    }
+  /** The surfaces are read. */
+  takeOrgans() {
+    this.read++;
+    this.box = joinBoxes(this.organs.filter((organ) => organ.triangles.length > 0).map((organ) => organ.box));
+    this.state.point = centreOf(this.box);
+    this.fit();
+    decodeState(location.hash, this.state, this.organs);
+  }
+
+  /** Some slices of the scan are read. */
+  takeSlices(first, count) {
+    this.read++;
+    if (this.scene) this.scene.loadSlices(first, count);
     this.changed();
   }
 }
@@ -332,17 +355,18 @@ class SliceTool {
   }
 }
 
+/** Shows the list and pictures at once, then the scene, then the slices. */
 async function start() {
-  const organs = await readOrgans();
   document.getElementById('app').hidden = false;
   document.body.classList.add('runs');
   if (!page.volume) document.getElementById('stage').classList.add('alone');
-  const viewer = new Viewer(organs);
-  viewer.fit();
-  decodeState(location.hash, viewer.state, organs);
-  chooseLayer(viewer);
-  const volume = await readVolume();
-  if (volume) viewer.addVolume(volume);
+  const viewer = new Viewer(makeOrgans(), makeVolume());
+  const layers = new Layers(viewer);
+  await new Promise((done) => requestAnimationFrame(() => setTimeout(done, 0)));
+  await readOrgans(viewer.organs);
+  viewer.takeOrgans();
+  layers.start3d();
+  if (viewer.volume) await readVolume(viewer.volume, (first, count) => viewer.takeSlices(first, count));
   requestAnimationFrame(() => requestAnimationFrame(() => { document.body.dataset.ready = 'yes'; }));
 }
 

@@ -8,11 +8,13 @@ class Measure {
     this.isOn = false;
     this.button = make('button', { type: 'button', textContent: 'Set points', 'aria-pressed': 'false' });
     this.button.addEventListener('click', () => this.turn(!this.isOn));
+    const here = make('button', { type: 'button', textContent: 'Point at the crosshair' });
+    here.addEventListener('click', () => this.add([...viewer.state.point]));
     const clear = make('button', { type: 'button', textContent: 'Remove all' });
     clear.addEventListener('click', () => { viewer.state.points = []; viewer.changed(); });
     this.list = make('ol', { className: 'points' });
     this.result = make('div');
-    place.append(make('details', {}, make('summary', { textContent: 'Measure' }), make('div', { className: 'row' }, this.button, clear), this.list, this.result,
+    place.append(make('details', {}, make('summary', { textContent: 'Measure' }), make('div', { className: 'row' }, this.button, here, clear), this.list, this.result,
                       make('p', { className: 'note', textContent: 'Click on a surface or a slice. Each two points are a distance.' }),
                       make('p', { className: 'note warning', textContent: 'Not for diagnosis.' })));
     this.element = place.lastElementChild;
@@ -104,7 +106,7 @@ function encodeState(state, organs) {
     a: round(state.azimuth), e: round(state.elevation), c: state.centre.map(round), s: round(state.scale), p: state.point.map(round),
     w: state.window.map(round), l: state.planes, cut: { ...state.cut, place: round(state.cut.place), normal: state.cut.normal.map(round) },
     o: organs.map((organ) => (organ.visible ? round(organ.shown) : -round(organ.shown))),
-    m: state.points.map((point) => [point.name, ...point.at.map(round)]),
+    m: state.points.map((point) => [point.name, ...point.at.map(round)]), v: state.perspective ? 1 : 0,
   };
   const bytes = new TextEncoder().encode(JSON.stringify(kept));
   return '#view=' + btoa(String.fromCharCode(...bytes)).replace(/\+/g, '-').replace(/\//g, '_').replace(/=+$/, '');
@@ -120,6 +122,7 @@ function decodeState(text, state, organs) {
     const numbers = (list, count) => Array.isArray(list) && list.length === count && list.every(Number.isFinite);
     if (![kept.a, kept.e, kept.s].every(Number.isFinite) || !numbers(kept.c, 3) || !numbers(kept.p, 3) || !numbers(kept.w, 2) || !(kept.s > 0)) return false;
     Object.assign(state, { azimuth: kept.a, elevation: clamp(kept.e, -90, 90), centre: kept.c, scale: kept.s, point: kept.p, window: [Math.max(kept.w[0], 1e-3), kept.w[1]] });
+    state.perspective = Boolean(kept.v);
     if (Array.isArray(kept.l)) state.planes = [0, 1, 2].map((axis) => Boolean(kept.l[axis]));
     if (kept.cut && cutKinds.includes(kept.cut.kind) && Number.isFinite(kept.cut.place) && numbers(kept.cut.normal, 3)) {
       state.cut = { kind: kept.cut.kind, place: kept.cut.place, flipped: Boolean(kept.cut.flipped), normal: kept.cut.normal };

@@ -106,7 +106,7 @@ const shadeFragment = `#version 300 es
 precision highp float;
 precision highp sampler2D;
 uniform sampler2D depths;
-uniform float range; // mm from depth 0 to depth 1
+uniform vec2 lens;   // mm of a depth d: lens.x d / (1 - lens.y d)
 uniform float pixel; // mm
 uniform float side;  // mm, mean side of the picture
 uniform float reach; // mm, largest distance of surfaces that take light away
@@ -116,7 +116,7 @@ out vec4 result;
 
 float depthAt(ivec2 at) {
   float depth = texelFetch(depths, clamp(at, ivec2(0), textureSize(depths, 0) - 1), 0).r;
-  return depth < 1.0 ? depth * range : 1e6;
+  return depth < 1.0 ? lens.x * depth / (1.0 - lens.y * depth) : 1e6;
 }
 
 float filled(float behind, float halfDepth, float radius) {
@@ -168,9 +168,15 @@ precision highp float;
 precision highp sampler2D;
 uniform sampler2D depths;
 uniform sampler2D shades;
-uniform float alike; // difference of depth within one surface
+uniform vec2 lens;   // as above
+uniform float alike; // mm, difference of depth within one surface
 uniform vec2 strengths;
 out vec4 result;
+
+float placeOf(float depth) {
+  return lens.x * depth / (1.0 - lens.y * depth);
+}
+
 void main() {
   ivec2 last = textureSize(depths, 0) - 1;
   ivec2 at = ivec2(gl_FragCoord.xy);
@@ -179,7 +185,7 @@ void main() {
   for (int y = -2; y < 2; ++y) for (int x = -2; x < 2; ++x) {
     ivec2 beside = clamp(at + ivec2(x, y), ivec2(0), last);
     float there = texelFetch(depths, beside, 0).r;
-    float counts = there < 1.0 && (here == 1.0 || abs(there - here) < alike) ? 1.0 : 0.0;
+    float counts = there < 1.0 && (here == 1.0 || abs(placeOf(there) - placeOf(here)) < alike) ? 1.0 : 0.0;
     taken += counts * texelFetch(shades, beside, 0).r;
     count += counts;
   }
@@ -259,32 +265,49 @@ class Scene {
 
   loadOrgan(organ) {
     const gl = this.gl;
-    const array = gl.createVertexArray();
-    gl.bindVertexArray(array);
-    [organ.points, organ.normals].forEach((values, place) => {
-      gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+    const buffers = [organ.points, organ.normals].map((values) => {
+      const buffer = gl.createBuffer();
+      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
       gl.bufferData(gl.ARRAY_BUFFER, values, gl.STATIC_DRAW);
-      gl.enableVertexAttribArray(place);
-      gl.vertexAttribPointer(place, 3, gl.FLOAT, false, 0, 0);
+      return buffer;
     });
-    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
-    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, organ.triangles, gl.STATIC_DRAW);
-    gl.bindVertexArray(null);
-    return { array, count: organ.triangles.length };
+    const load = (triangles) => {
+      const array = gl.createVertexArray();
+      gl.bindVertexArray(array);
+      buffers.forEach((buffer, place) => {
+        gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+        gl.enableVertexAttribArray(place);
+        gl.vertexAttribPointer(place, 3, gl.FLOAT, false, 0, 0);
+      });
+      gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
+      gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, triangles, gl.STATIC_DRAW);
+      gl.bindVertexArray(null);
+      return { array, count: triangles.length };
+    };
+    return { fine: load(organ.triangles), coarse: load(organ.coarse) };
   }
 
-  /** Also later than the rest: surfaces are shown before the slices are decoded. */
   loadVolume() {
     const gl = this.gl;
-    gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
     this.numbers = gl.createTexture();
     gl.bindTexture(gl.TEXTURE_3D, this.numbers);
-    gl.texImage3D(gl.TEXTURE_3D, 0, gl.R8, ...this.volume.size, 0, gl.RED, gl.UNSIGNED_BYTE, this.volume.numbers);
+    gl.texStorage3D(gl.TEXTURE_3D, 1, gl.R8, ...this.volume.size);
     for (const wrap of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T, gl.TEXTURE_WRAP_R]) gl.texParameteri(gl.TEXTURE_3D, wrap, gl.CLAMP_TO_EDGE);
     gl.texParameteri(gl.TEXTURE_3D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
     gl.texParameteri(gl.TEXTURE_3D, gl.TEXTURE_MAG_FILTER, gl.LINEAR);
     this.greys = gl.createTexture();
     this.window = '';
+    this.loadSlices(0, this.volume.size[2]);
+  }
+
+  /** Uploads some slices: the scene is shown before all of them are read. */
+  loadSlices(first, count) {
+    const gl = this.gl;
+    const [columns, rows] = this.volume.size;
+    gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
+    gl.bindTexture(gl.TEXTURE_3D, this.numbers);
+    gl.texSubImage3D(gl.TEXTURE_3D, 0, 0, 0, first, columns, rows, count, gl.RED, gl.UNSIGNED_BYTE,
+                     this.volume.numbers.subarray(first * columns * rows, (first + count) * columns * rows));
   }
 
   /** Sizes the canvas and the depths to the place on the page. */
@@ -314,27 +337,33 @@ class Scene {
     }
   }
 
-  /** The camera's matrices, for \a state and the canvas. */
+  /** The camera's matrices, for \a state and the canvas; and its lens: a depth of d is lens[0] d / (1 - lens[1] d) mm
+   * behind the nearest. */
   aim(state) {
-    const frame = frameOf(state.azimuth, state.elevation);
-    const reach = length(minus(this.box.high, this.box.low)) / 2 + length(minus(centreOf(this.box), state.centre)) + 1;
-    const whole = this.volume ? Math.max(reach, length(minus(this.volume.highest, this.volume.origin)) / 2 +
-                                                  length(minus(centreOf({ low: this.volume.origin, high: this.volume.highest }), state.centre)) + 1) : reach;
-    const ways = [[frame.right, 2 / (state.scale * this.canvas.clientWidth)], [frame.up, 2 / (state.scale * this.canvas.clientHeight)],
-                  [frame.look, 1 / whole]];
+    const { clientWidth, clientHeight } = this.canvas;
+    const { frame, distance } = cameraOf(state, clientHeight);
+    const reachAround = ({ low, high }) => length(minus(high, low)) / 2 + length(minus(centreOf({ low, high }), state.centre)) + 1;
+    const reach = Math.max(reachAround(this.box), this.volume ? reachAround({ low: this.volume.origin, high: this.volume.highest }) : 0);
+    const rows = [[frame.right, 2 / (state.scale * clientWidth)], [frame.up, 2 / (state.scale * clientHeight)], [frame.look, 1 / reach]]
+      .map(([way, factor]) => [...way.map((x) => x * factor), -dot(way, state.centre) * factor]);
+    rows.push([0, 0, 0, 1]);
+    let lens = [2 * reach, 0];
+    if (state.perspective) {
+      const near = Math.max(distance - reach, distance / 50), far = distance + reach;
+      const look = rows[2].map((x) => x * reach); // mm behind the centre
+      rows[3] = look.map((x, n) => x / distance + (n === 3 ? 1 : 0));
+      rows[2] = look.map((x, n) => ((far + near) * (x + (n === 3 ? distance : 0)) - (n === 3 ? 2 * far * near : 0)) / ((far - near) * distance));
+      lens = [near * (far - near) / far, (far - near) / far];
+    }
     const matrix = new Float32Array(16);
-    ways.forEach(([way, factor], row) => {
-      for (let axis = 0; axis < 3; axis++) matrix[4 * axis + row] = way[axis] * factor;
-      matrix[12 + row] = -dot(way, state.centre) * factor;
-    });
-    matrix[15] = 1;
+    rows.forEach((row, n) => row.forEach((x, column) => { matrix[4 * column + n] = x; }));
     const rotation = new Float32Array(9);
     for (let axis = 0; axis < 3; axis++) {
       rotation[3 * axis] = frame.right[axis];
       rotation[3 * axis + 1] = frame.up[axis];
       rotation[3 * axis + 2] = -frame.look[axis];
     }
-    return { frame, matrix, rotation, range: 2 * whole };
+    return { frame, matrix, rotation, lens };
   }
 
   use(program, camera, cut) {
@@ -346,7 +375,7 @@ class Scene {
   }
 
   drawOrgan(organ) {
-    const mesh = this.meshes[organ.number];
+    const mesh = this.meshes[organ.number][this.isFine ? 'fine' : 'coarse'];
     this.gl.bindVertexArray(mesh.array);
     this.gl.drawElements(this.gl.TRIANGLES, mesh.count, this.gl.UNSIGNED_INT, 0);
   }
@@ -424,9 +453,7 @@ class Scene {
     const far = 2 * length(minus(this.box.high, this.box.low)) + 1;
     const n = cut.normal;
     const other = Math.abs(n[2]) < 0.9 ? [0, 0, 1] : [1, 0, 0];
-    const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-    let u = cross(n, other);
-    u = u.map((x) => x / length(u));
+    const u = unit(cross(n, other));
     const v = cross(n, u);
     const middle = centreOf(this.box);
     const foot = along(middle, n, cut.offset - dot(n, middle));
@@ -476,17 +503,17 @@ class Scene {
   }
 
   /** Darkens cavities and outlines of what is opaque. */
-  drawShades(opaque, camera, cut, state, look, isFine) {
+  drawShades(opaque, camera, cut, state, look) {
     const gl = this.gl, u = this.shade.uniforms;
     this.drawDepths(opaque, camera, cut);
     gl.useProgram(this.shade.program);
     gl.uniform1i(u.depths, 0);
-    gl.uniform1f(u.range, camera.range);
+    gl.uniform2f(u.lens, ...camera.lens);
     gl.uniform1f(u.pixel, state.scale / this.ratio);
     gl.uniform1f(u.side, state.scale * (this.canvas.clientWidth + this.canvas.clientHeight) / 2);
     gl.uniform1f(u.reach, 0.02 * dot(minus(this.box.high, this.box.low), [1, 1, 1])); // 0.06 of the mean side
     gl.uniform1f(u.ratio, this.ratio);
-    gl.uniform1i(u.isFine, isFine ? 1 : 0);
+    gl.uniform1i(u.isFine, this.isFine ? 1 : 0);
     gl.disable(gl.DEPTH_TEST);
     gl.bindVertexArray(this.empty);
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.shadeTarget);
@@ -495,7 +522,8 @@ class Scene {
     gl.useProgram(this.darken.program);
     gl.uniform1i(this.darken.uniforms.depths, 0);
     gl.uniform1i(this.darken.uniforms.shades, 1);
-    gl.uniform1f(this.darken.uniforms.alike, 0.006 * state.scale * (this.canvas.clientWidth + this.canvas.clientHeight) / 2 / camera.range);
+    gl.uniform2f(this.darken.uniforms.lens, ...camera.lens);
+    gl.uniform1f(this.darken.uniforms.alike, 0.006 * state.scale * (this.canvas.clientWidth + this.canvas.clientHeight) / 2);
     gl.uniform2f(this.darken.uniforms.strengths, ...look.strengths);
     gl.activeTexture(gl.TEXTURE1);
     gl.bindTexture(gl.TEXTURE_2D, this.shades);
@@ -507,10 +535,16 @@ class Scene {
     gl.enable(gl.DEPTH_TEST);
   }
 
-  /** Draws the state. \a isFine: with shadows in cavities, which take longest. */
+  /** Returns when all is drawn. */
+  wait() {
+    this.gl.readPixels(0, 0, 1, 1, this.gl.RGBA, this.gl.UNSIGNED_BYTE, new Uint8Array(4));
+  }
+
+  /** Draws the state. \a isFine: all triangles, and shadows in cavities. */
   draw(state, isFine) {
     const gl = this.gl;
     if (gl.isContextLost()) return;
+    this.isFine = isFine;
     this.resize();
     const look = state.isLight ? paperLook : clinicLook;
     const camera = this.aim(state);
@@ -530,7 +564,7 @@ class Scene {
     gl.bindTexture(gl.TEXTURE_2D, this.nearWall);
     this.use(this.surface, camera, cut);
     for (const organ of opaque) this.paint(organ, look, state.marked);
-    if (opaque.length > 0) this.drawShades(opaque, camera, cut, state, look, isFine);
+    if (opaque.length > 0) this.drawShades(opaque, camera, cut, state, look);
     if (cut) this.drawCaps(visible, camera, cut, state);
     if (this.numbers && state.planes.some(Boolean)) this.drawSlices(camera, cut, state);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);

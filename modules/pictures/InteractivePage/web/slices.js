@@ -34,6 +34,7 @@ class SliceView {
     this.slider.setAttribute('aria-label', plane.name + ' slice');
     this.element.querySelector('b').textContent = plane.name;
     this.samples = document.createElement('canvas');
+    this.outlines = new Map();
     const volume = viewer.volume, axis = plane.axis;
     this.slider.min = volume.origin[axis];
     this.slider.max = volume.highest[axis];
@@ -135,7 +136,7 @@ class SliceView {
   /** The greys of the slice through the crosshair, linear between the scan's slices. */
   readSamples() {
     const { volume, state } = this.viewer, { axis, across, down, downSign } = this.plane;
-    const key = [state.point[axis], ...state.window].join();
+    const key = [state.point[axis], ...state.window, this.viewer.read].join();
     if (this.key === key) return;
     this.key = key;
     const columns = volume.size[across], rows = volume.size[down];
@@ -159,13 +160,24 @@ class SliceView {
     this.samples.getContext('2d').putImageData(image, 0, 0);
   }
 
+  /** The outline of a surface in this slice, computed once for each place. */
+  outlineOf(organ) {
+    const { axis, across, down } = this.plane;
+    const place = this.viewer.state.point[axis];
+    const known = this.outlines.get(organ);
+    if (known && known.place === place && known.triangles === organ.triangles) return known.lines;
+    const lines = outlineOf(organ, axis, place, across, down);
+    this.outlines.set(organ, { place, triangles: organ.triangles, lines });
+    return lines;
+  }
+
   drawOutlines(context, ratio) {
-    const { state, organs } = this.viewer, { axis, across, down } = this.plane;
+    const { state, organs } = this.viewer, { across, down } = this.plane;
     if (!state.outlines) return;
     context.lineWidth = 1.4 * ratio;
     for (const organ of organs) {
       if (!organ.visible) continue;
-      const lines = outlineOf(organ, axis, state.point[axis], across, down);
+      const lines = this.outlineOf(organ);
       if (lines.length === 0) continue;
       const point = [...state.point];
       context.beginPath();
@@ -199,6 +211,11 @@ class SliceView {
     const { viewer, canvas, plane } = this;
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
     const width = Math.max(1, Math.round(canvas.clientWidth * ratio)), height = Math.max(1, Math.round(canvas.clientHeight * ratio));
+    const { point, window: greys, outlines, crosshair, marked, points } = viewer.state;
+    const all = JSON.stringify([point, greys, outlines, crosshair, marked, points, width, height, viewer.read,
+                                viewer.organs.map((organ) => organ.visible)]);
+    if (this.all === all) return; // as when the scene is turned
+    this.all = all;
     if (canvas.width !== width || canvas.height !== height) { canvas.width = width; canvas.height = height; }
     const context = canvas.getContext('2d');
     context.fillStyle = '#000';
