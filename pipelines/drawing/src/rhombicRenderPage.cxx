@@ -131,9 +131,11 @@ HasOneOf(const std::string & text, const std::vector<std::string> & words)
 std::string
 DescribePrivacy(const PictureScene & scene, bool hasSlices)
 {
-  const std::vector<std::string> headWords{ "head",  "skull", "brain", "face",  "facial", "orbit",
+  const std::vector<std::string> headWords{ "head",  "skull", "brain",  "face",  "facial", "orbit",
                                             "sinus", "jaw",   "mandib", "whole", "eye",    "cranio" };
-  const std::vector<std::string> skinWords{ "skin", "body", "outline", "head", "face", "facial", "soft tissue", "scalp" };
+  const std::vector<std::string> skinWords{
+    "skin", "body", "outline", "head", "face", "facial", "soft tissue", "scalp"
+  };
   const std::string examination = LowerCase(scene.examination);
   bool hasHead = HasOneOf(examination, headWords);
   bool hasSkin = hasSlices;
@@ -189,6 +191,7 @@ ReportWeight(const PageWeight & weight)
                  { "trianglesBefore", weight.trianglesBefore },
                  { "triangles", weight.triangles },
                  { "surfaceError_mm", weight.surfaceError },
+                 { "measuredSurfaceError_mm", weight.measuredError },
                  { "positionStep_mm", weight.quantum } };
   if (weight.grid[0] > 0)
   {

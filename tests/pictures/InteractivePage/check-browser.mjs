@@ -1,8 +1,10 @@
 // Opens the pages of check-browser.sh in Chromium, as a reader does, and looks at what it shows.
+import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { resolve } from 'node:path';
 import axe from 'axe-core';
 import { chromium } from 'playwright-core';
+import { ball, centre } from './make-scans.mjs';
 
 let failures = 0;
 function check(isTrue, what) {
@@ -212,7 +214,7 @@ async function checkPicking(page) {
 /** A copied view holds no path, and comes back through the field. */
 async function checkSharing(page) {
   const state = await copyState(page);
-  check(state.m.length === 2 && Object.keys(state).length === 10, 'a copied view holds the view and the points alone');
+  check(state.m.length === 2 && Object.keys(state).length === 11, 'a copied view holds the view and the points alone');
   const field = page.getByRole('textbox', { name: 'A copied view' });
   await field.fill('file:///somewhere/page.html' + hashOf({ ...state, a: 90, e: 0, w: [1500, -500] }));
   await field.press('Enter');
@@ -221,6 +223,132 @@ async function checkSharing(page) {
   await field.fill('#view=bm90IGEgdmlldw');
   await field.press('Enter');
   check((await page.locator('#tools').textContent()).includes('This is no view'), 'a damaged one is refused');
+}
+
+/** A reader without a mouse reaches every control, sees where the focus is, turns the scene, and comes away again. */
+async function checkKeyboard(page) {
+  await page.evaluate(() => { for (const details of document.querySelectorAll('#tools details')) details.open = false; });
+  const walk = async () => {
+    await page.evaluate(() => { document.activeElement.blur(); document.body.dataset.walk = ''; });
+    const missing = await page.evaluate(() => {
+      window.controls = [...document.querySelectorAll('#app button, #app input, #app select, #app summary, #app [tabindex="0"]')]
+        .filter((element) => element.checkVisibility({ visibilityProperty: true }));
+      return window.controls.length;
+    });
+    const found = new Set(), unseen = [];
+    for (let n = 0; n < missing + 3; n++) {
+      await page.keyboard.press('Tab');
+      const { index, name, isSeen } = await page.evaluate(() => {
+        const element = document.activeElement, style = getComputedStyle(element), box = element.getBoundingClientRect();
+        return { index: window.controls.indexOf(element), name: element.getAttribute('aria-label') || element.textContent,
+                 isSeen: style.outlineStyle !== 'none' && parseFloat(style.outlineWidth) >= 2 &&
+                   box.right > 0 && box.left < innerWidth && box.bottom > 0 && box.top < innerHeight };
+      });
+      if (index >= 0) found.add(index);
+      if (index >= 0 && !isSeen) unseen.push(name);
+    }
+    return { all: missing, found: found.size, unseen };
+  };
+  const closed = await walk();
+  check(closed.found === closed.all, `the keyboard reaches ${closed.found} of ${closed.all} controls`);
+  for (const name of ['Cut', 'Measure', 'Share']) await page.locator('summary', { hasText: name }).press('Enter');
+  await page.getByRole('combobox', { name: 'Plane of the cut' }).selectOption('axial');
+  const open = await walk();
+  check(open.all > closed.all && open.found === open.all, `and ${open.found} of ${open.all} in opened tools`);
+  check(closed.unseen.length + open.unseen.length === 0, `each shows its focus ${[...closed.unseen, ...open.unseen].join(', ')}`);
+  await page.getByRole('combobox', { name: 'Plane of the cut' }).selectOption('off');
+  await page.locator('#canvas').focus();
+  await page.keyboard.press('1');
+  for (let n = 0; n < 9; n++) await page.keyboard.press('ArrowLeft');
+  await drawn(page);
+  check(await lettersOf(page, '#scene') === 'A P H F', 'nine steps to the left are the view from the left');
+  await page.keyboard.press('1');
+  const set = page.getByRole('button', { name: 'Set points' });
+  await set.press('Enter');
+  await page.getByRole('button', { name: 'Point at the crosshair' }).press('Enter');
+  check(await page.locator('.points li').count() === 1, 'a point is set without a mouse');
+  await page.keyboard.press('Escape');
+  check(await page.getByRole('button', { name: 'Set points' }).getAttribute('aria-pressed') === 'false', 'Escape ends the setting of points');
+  await page.locator('.organ .name').first().press('Enter');
+  check(await page.locator('.organ.marked').count() === 1, 'a name marks its row');
+  await page.keyboard.press('Escape');
+  await drawn(page);
+  check(await page.locator('.organ.marked').count() === 0, 'Escape takes the mark away');
+  await page.getByRole('button', { name: 'Remove all' }).press('Enter');
+  await page.evaluate(() => { for (const details of document.querySelectorAll('#tools details')) details.open = false; });
+}
+
+/** In perspective the same place is under the mouse. */
+async function checkPerspective(page) {
+  const state = await copyState(page);
+  await page.evaluate((hash) => { location.hash = hash; }, hashOf({ ...state, a: 20, e: 10, s: 0.5, v: 0 }));
+  await drawn(page);
+  const flat = await pixelsOf(page);
+  await page.getByRole('button', { name: 'Perspective' }).click();
+  await drawn(page);
+  const deep = await pixelsOf(page);
+  let changed = 0;
+  for (let n = 0; n < flat.width * flat.height; n++) changed += Math.abs(flat.data[4 * n] - deep.data[4 * n]) > 20 ? 1 : 0;
+  check(changed > 1000, `perspective changes ${changed} pixels`);
+  const canvas = await page.locator('#canvas').boundingBox();
+  let at = null;
+  for (let n = deep.width * (deep.height >> 2); n < deep.width * deep.height && !at; n++) if (isLit(deep, n) && isLit(deep, n + 8 * deep.width)) at = [n % deep.width, Math.floor(n / deep.width) + 4];
+  await page.mouse.click(canvas.x + at[0], canvas.y + at[1]);
+  await drawn(page);
+  const point = (await readout(page)).point;
+  const shown = await page.evaluate(([place, view]) => {
+    const [a, e] = [view.a, view.e].map((x) => x * Math.PI / 180);
+    const way = place.map((x, axis) => x - view.c[axis]);
+    const dot = (b) => way[0] * b[0] + way[1] * b[1] + way[2] * b[2];
+    const [right, up, look] = [[Math.cos(a), Math.sin(a), 0], [-Math.sin(a) * Math.sin(e), Math.cos(a) * Math.sin(e), Math.cos(e)],
+                               [-Math.sin(a) * Math.cos(e), Math.cos(a) * Math.cos(e), -Math.sin(e)]];
+    const { clientWidth, clientHeight } = document.getElementById('canvas');
+    const scale = view.s * (1 + dot(look) / (2.3 * clientHeight * view.s));
+    return [clientWidth / 2 + dot(right) / scale, clientHeight / 2 - dot(up) / scale];
+  }, [point, { ...state, a: 20, e: 10, s: 0.5 }]);
+  const away = Math.hypot(shown[0] - at[0], shown[1] - at[1]);
+  check(away < 2, `in perspective a click meets what is under it, ${away.toFixed(2)} pixels away`);
+  await page.getByRole('button', { name: 'Perspective' }).click();
+  await page.keyboard.press('Escape');
+}
+
+/** A ball whose place is known: letters of six views, a click on it, and the scan's values about it. */
+async function checkBall(page, file) {
+  await checkLetters(page);
+  const state = await copyState(page);
+  await page.evaluate((hash) => { location.hash = hash; }, hashOf({ ...state, a: 0, e: 0, s: 0.5, c: ball.at }));
+  await drawn(page);
+  const canvas = await page.locator('#canvas').boundingBox();
+  await page.mouse.click(canvas.x + canvas.width / 2, canvas.y + canvas.height / 2);
+  await drawn(page);
+  const hit = (await readout(page)).point;
+  const truth = [ball.at[0], ball.at[1] - ball.radius, ball.at[2]];
+  const away = Math.max(...hit.map((x, axis) => Math.abs(x - truth[axis])));
+  check(await page.locator('.organ.marked .name').textContent() === 'ball' && away <= 1, `${file}: a click in the middle meets the ball ${away.toFixed(2)} mm from its front`);
+  const valueAt = async (point) => {
+    await page.evaluate((hash) => { location.hash = hash; }, hashOf({ ...state, p: point }));
+    await drawn(page);
+    return Number(/: \D*?(-?\d+) HU/.exec((await readout(page)).text)[1]);
+  };
+  const inside = await valueAt(ball.at);
+  check(Math.abs(inside - 1000) <= 12, `${file}: ${inside} HU in the ball`);
+  // Half of the ball's value is on its surface: a voxel further in is more, a voxel further out less.
+  for (const [axis, sign] of [[0, -1], [1, 1], [2, -1]]) {
+    const values = [];
+    for (const beyond of [-3, 3]) values.push(await valueAt(ball.at.map((x, n) => x + (n === axis ? sign * (ball.radius + beyond) : 0))));
+    check(values[0] > 520 && values[1] < 520, `${file}: ${values} HU a voxel inside and outside along axis ${axis}`);
+  }
+  check((await page.locator('#tools').textContent()).includes('resampled along'), `${file}: the page says that slices are resampled`);
+}
+
+/** Printed, there are pictures and the table on few pages. */
+async function checkPrint(page, file) {
+  await page.pdf({ path: file, format: 'A4' });
+  const text = execFileSync('pdftotext', ['-layout', file, '-'], { encoding: 'utf8' });
+  const pages = text.split('\f').length - 1;
+  check(pages >= 1 && pages <= 3, `printed on ${pages} pages`);
+  for (const part of ['anterior', 'axial', 'volume', 'Not for diagnosis', 'privacy']) check(text.includes(part), `the print has "${part}"`);
+  check(!text.includes('Set points') && !text.includes('Search'), 'and no controls');
 }
 
 async function checkCut(page) {
@@ -268,6 +396,9 @@ await open('organs.html', {}, async (page) => {
   await checkPicking(page);
   await checkSharing(page);
   await checkCut(page);
+  await checkPerspective(page);
+  await checkKeyboard(page);
+  await checkPrint(page, 'organs.pdf');
   await checkLostContext(page);
   await checkAccess(page);
   await page.screenshot({ path: 'organs.png' });
@@ -305,7 +436,48 @@ await open('shell.html', { viewport: { width: 360, height: 640 }, hasTouch: true
   await page.locator('#canvas').tap();
   await drawn(page);
   check(await page.locator('.organ.marked').count() === 1, 'a tap names a structure');
+  const touch = await page.context().newCDPSession(page);
+  const send = (type, ...points) => touch.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+  const before = await copyState(page);
+  await page.locator('#canvas').scrollIntoViewIfNeeded();
+  const box = await page.locator('#canvas').boundingBox();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await send('touchStart', [x, y]);
+  for (let n = 1; n <= 6; n++) await send('touchMove', [x - 10 * n, y]);
+  await send('touchEnd');
+  const turned = await copyState(page);
+  check(Math.abs(turned.a - before.a) > 10 && turned.s === before.s, `a finger turns the scene by ${(turned.a - before.a).toFixed(0)} degrees`);
+  await page.locator('#canvas').scrollIntoViewIfNeeded();
+  await send('touchStart', [x - 20, y], [x + 20, y]);
+  for (let n = 1; n <= 6; n++) await send('touchMove', [x - 20 - 8 * n, y], [x + 20 + 8 * n, y]);
+  await send('touchEnd');
+  const enlarged = await copyState(page);
+  check(enlarged.s < 0.6 * turned.s, `two fingers enlarge it ${(turned.s / enlarged.s).toFixed(1)} times`);
+  const small = await page.evaluate(() => [...document.querySelectorAll('#app button, #app input, #app select, #app summary')]
+    .filter((element) => element.checkVisibility() && element.getBoundingClientRect().height < 24).map((element) => element.ariaLabel || element.textContent));
+  check(small.length === 0, `controls are as high as a finger's tip ${small.join(', ')}`);
   await page.screenshot({ path: 'phone.png', fullPage: true });
+});
+
+for (const file of ['oblique.html', 'tilted.html']) await open(file, {}, (page) => checkBall(page, file));
+
+await open('named.html', {}, async (page) => {
+  const names = await page.locator('.organ .name').allTextContents();
+  check(names.includes('</script><img src=x onerror=alert(1)>') && names.includes('the "ball" & \'co\' <!-- {{title}}') &&
+        names.includes('\u05db\u05d1\u05d3 \u0643\u0628\u062f'), `names are text: ${names.join(' | ')}`);
+  check(await page.locator('.organ .name').evaluateAll((all) => all.filter((name) => getComputedStyle(name).direction === 'rtl').length) === 1, 'one name runs from right to left');
+  check(await page.locator('img[src="x"]').count() === 0, 'none of them is markup');
+});
+
+await open('unnamed.html', {}, async (page) => {
+  check(await page.locator('.organ .name').count() === 3 && (await page.locator('.organ .name').allTextContents()).every((name) => name.trim()), 'labels without names have some');
+  // Time in a software renderer: the machine may be busy, so the limits are three times those that hold on a quiet one.
+  const times = await page.evaluate(() => ({ view: performance.getEntriesByName('first-contentful-paint')[0].startTime, use: performance.getEntriesByName('usable')[0].startTime }));
+  check(times.view < 3000 && times.use < 9000, `first view after ${times.view.toFixed(0)} ms, turned after ${times.use.toFixed(0)} ms`);
+});
+
+await open('slice.html', {}, async (page) => {
+  check(await page.locator('.slice').count() === 3, 'a scan of one slice has its three planes');
 });
 
 await open('surfaces.html', { colorScheme: 'light' }, async (page) => {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # check-browser.sh RHOMBIC PHANTOM FOLDER: makes interactive pages of the phantom in FOLDER and opens them in Chromium. Exits
-# with 77, which CTest takes for skipped, where there is no node, npm or Chromium, or no network to fetch the packages of
+# with 77, which CTest takes for skipped, where there is no node, npm, Chromium or pdftotext, or no network to fetch the packages of
 # package-lock.json from, once.
 set -euo pipefail
 
@@ -9,11 +9,11 @@ phantom=$2
 folder=$3
 here=$(cd "$(dirname "$0")" && pwd)
 
-for program in node npm chromium; do
+for program in node npm chromium pdftotext; do
   command -v "$program" >/dev/null || { echo "skipped: $program is not installed"; exit 77; }
 done
 mkdir -p "$folder"
-cp "$here"/package.json "$here"/package-lock.json "$here"/check-browser.mjs "$folder"
+cp "$here"/package.json "$here"/package-lock.json "$here"/check-browser.mjs "$here"/make-scans.mjs "$folder"
 if [ ! -d "$folder/node_modules/playwright-core" ]; then
   (cd "$folder" && timeout 300 npm ci --ignore-scripts --no-audit --no-fund) || { echo "skipped: npm can't fetch packages"; exit 77; }
 fi
@@ -24,4 +24,11 @@ labels=(--labels "$phantom/phantom-labels.nii.gz" --label heart --label liver --
 "$rhombic" -q render "$phantom/dicom" --preset ct-bone-skin -o shell.html
 "$rhombic" -q mesh "$phantom/dicom" "${labels[@]}" -o organs.vtp
 "$rhombic" -q render organs.vtp -o surfaces.html
+node make-scans.mjs
+for scan in oblique tilted; do
+  "$rhombic" -q render $scan.nii --surface ball=520,#ff8800 --surface body=-300,#88aaff,0.3 -o $scan.html
+done
+"$rhombic" -q render slice.nii --surface body=-300 -o slice.html
+"$rhombic" -q render named.nii --label-table named.tsv -o named.html
+"$rhombic" -q render unnamed.nii -o unnamed.html
 node check-browser.mjs

@@ -61,12 +61,13 @@ struct PageWeight
   std::uintmax_t sizeOfPictures = 0;
   std::size_t trianglesBefore = 0;
   std::size_t triangles = 0;
-  double surfaceError = 0.0; ///< mm: the largest distance of simplified surfaces; 0: not simplified
-  double quantum = 0.0;      ///< mm: the distance of positions that the page can tell apart
-  std::array<int, 3> grid{}; ///< samples of the slices along x, y and z; 0 without slices
-  Vector3 spacing{};         ///< mm
-  double valueError = 0.0;   ///< the largest error of values from -200 to 300 HU, or of all values of other scans
-  double lowest = 0.0;       ///< values below and above are not told apart
+  double surfaceError = 0.0;  ///< mm that no part of the surfaces was moved farther than; 0: not simplified
+  double measuredError = 0.0; ///< mm: the largest distance of simplified surfaces where it was measured
+  double quantum = 0.0;       ///< mm: the distance of positions that the page can tell apart
+  std::array<int, 3> grid{};  ///< samples of the slices along x, y and z; 0 without slices
+  Vector3 spacing{};          ///< mm
+  double valueError = 0.0;    ///< the largest error of values from -200 to 300 HU, or of all values of other scans
+  double lowest = 0.0;        ///< values below and above are not told apart
   double highest = 0.0;
   std::vector<std::string> notes; ///< sentences about what was reduced
 };
@@ -81,10 +82,11 @@ struct MadePage
 /** Makes a page: one HTML file that shows pictures and a table without scripts, slices and a turntable with scripts,
  * and surfaces that can be turned with WebGL2. Its Content-Security-Policy forbids every request to a network.
  *
- * Surfaces are simplified by at most 0.1 mm, and where the page would be larger than PageContent::largestSize, by more;
- * slices are resampled to at most 256 x 256 x 256 samples along the patient's axes, in fewer grey levels where the page
- * would be too large. A page that is too large all the same is made, with a note. The same bytes for any number of
- * threads.
+ * Surfaces are simplified to a quarter of their triangles, or to as many as there is room for in
+ * PageContent::largestSize, but no part of them is moved farther than 0.2 mm for the quarter, nor than 3.2 mm for the
+ * room; slices are resampled to at most 256 x 256 x 256 samples along the patient's axes, in fewer grey levels where
+ * surfaces would have too little room. A page that is too large all the same is made, with a note. The same bytes for
+ * any number of threads.
  *
  * Throws Failure(Usage) without surfaces. */
 MadePage

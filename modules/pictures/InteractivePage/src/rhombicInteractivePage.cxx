@@ -23,16 +23,21 @@ using Json = nlohmann::ordered_json;
 
 constexpr int SlicesOfBlock = 16;
 
-/** How much is left out: the first row is what every page has. */
-struct Reduction
+/** How slices are coded, where surfaces then have room for a share of their triangles: the first row that they have. */
+struct SliceCoding
 {
-  double error;    ///< mm, of surfaces
-  int levelFactor; ///< grey levels so many times as far from each other
-  int sliceStep;   ///< every so many slices
+  int levelFactor;   ///< grey levels so many times as far from each other
+  int sliceStep;     ///< every so many slices
+  double leastShare; ///< of the triangles
 };
 
-constexpr Reduction Reductions[] = { { 0.1, 1, 1 }, { 0.1, 2, 1 }, { 0.2, 2, 1 }, { 0.2, 4, 1 }, { 0.4, 4, 1 },
-                                     { 0.4, 4, 2 }, { 0.8, 4, 2 }, { 1.6, 4, 4 }, { 3.2, 4, 4 } };
+constexpr SliceCoding SliceCodings[] = { { 1, 1, 0.25 }, { 2, 1, 0.1 }, { 4, 1, 0.05 }, { 4, 2, 0.02 }, { 4, 4, 0.0 } };
+
+constexpr double ShareOfTriangles = 0.25; // more are hardly seen
+constexpr double ErrorForShare = 0.2;     // mm
+constexpr double LargestError = 3.2;      // mm
+constexpr std::size_t FewestTriangles = 100;
+constexpr double BytesOfTriangle = 3.4; // in base64; surfaces with many triangles need 3.3
 
 /** A data block of the page: what browsers do not run, under an id that the script looks for. */
 std::string
@@ -42,10 +47,11 @@ DataBlock(const std::string & id, std::string_view bytes)
 }
 
 std::string
-JpegOf(const Picture & picture, int quality)
+JpegOf(const Picture & picture, int quality, bool halvesColour = false)
 {
   PictureMetadata metadata;
   metadata.jpegQuality = quality;
+  metadata.jpegHalves = halvesColour;
   return EncodePicture(picture, ".jpg", metadata);
 }
 
@@ -66,7 +72,7 @@ HexOf(const Colour & colour)
 std::string
 FigureOf(const StillPicture & picture, const std::string & what)
 {
-  constexpr int quality = 88;
+  constexpr int quality = 85;
   const std::string caption = EscapeHtml(picture.caption);
   return "<figure><img alt=\"" + what + ": " + caption + "\" width=\"" + std::to_string(picture.picture.width) +
          "\" height=\"" + std::to_string(picture.picture.height) + "\" src=\"data:image/jpeg;base64," +
@@ -153,12 +159,8 @@ DescribeMesh(const PageMesh & mesh)
   {
     sheets.push_back({ sheet.front, sheet.back, sheet.triangles });
   }
-  return { { "origin", mesh.origin },
-           { "extent", mesh.extent },
-           { "quantum", mesh.quantum },
-           { "points", mesh.points },
-           { "triangles", mesh.triangles },
-           { "sheets", sheets } };
+  return { { "origin", mesh.origin }, { "extent", mesh.extent },       { "quantum", mesh.quantum },
+           { "points", mesh.points }, { "triangles", mesh.triangles }, { "sheets", sheets } };
 }
 
 Json
@@ -206,7 +208,7 @@ MakeFixedParts(const PageContent & content)
   parts.table = TableOf(content);
   for (std::size_t n = 0; n < content.turntable.size(); ++n)
   {
-    parts.turntable += DataBlock("turn-" + std::to_string(n), JpegOf(content.turntable[n], quality));
+    parts.turntable += DataBlock("turn-" + std::to_string(n), JpegOf(content.turntable[n], quality, true));
   }
   return parts;
 }
@@ -222,10 +224,21 @@ MakerOf(const PageContent & content)
   return PageMeshMaker(surfaces);
 }
 
+/** Simplifies surfaces once for the room that they have, and goes on with larger errors only where that is too little.
+ */
 void
-CodeSurfaces(double error, PageMeshMaker & maker, ReducedParts & parts)
+CodeSurfaces(std::uintmax_t room, const Events & events, PageMeshMaker & maker, ReducedParts & parts)
 {
-  maker.Simplify(error);
+  const auto forRoom = std::max(FewestTriangles, static_cast<std::size_t>(static_cast<double>(room) / BytesOfTriangle));
+  const auto share = static_cast<std::size_t>(ShareOfTriangles * static_cast<double>(maker.GetNumberOfTriangles()));
+  const std::size_t triangles = std::min(forRoom, std::max(FewestTriangles, share));
+  for (double error = ErrorForShare;
+       error <= LargestError && (error == ErrorForShare || maker.GetNumberOfTriangles() > forRoom);
+       error *= 2.0)
+  {
+    maker.Simplify(triangles, error, [&events](double done) { events.Progress("simplifying surfaces", done); });
+  }
+  events.Progress("coding surfaces", 0.0);
   parts.mesh = maker.Make();
   parts.surfaceBlocks = DataBlock("points", parts.mesh.pointBytes) + DataBlock("triangles", parts.mesh.triangleBytes);
 }
@@ -244,15 +257,21 @@ CodeSlices(PageVolume volume, ReducedParts & parts)
 }
 
 std::vector<std::string>
-DescribeReduction(const PageWeight & weight, const PageContent & content, const ReducedParts & parts, bool isReduced)
+DescribeReduction(const PageWeight & weight, const PageContent & content, const ReducedParts & parts)
 {
   const std::string unit = content.unit.empty() ? "" : " " + content.unit;
   std::vector<std::string> notes;
-  if (parts.mesh.refusal.empty())
+  if (parts.mesh.refusal.empty() && weight.surfaceError == 0.0)
   {
-    notes.push_back("surfaces: simplified by at most " + FormatNumber(weight.surfaceError) + " mm, " +
-                    std::to_string(weight.triangles) + " of " + std::to_string(weight.trianglesBefore) +
-                    " triangles; positions in steps of " + FormatNumber(weight.quantum, 2) + " mm");
+    notes.push_back("surfaces: " + std::to_string(weight.triangles) +
+                    " triangles, not simplified; positions in steps of " + FormatNumber(weight.quantum, 2) + " mm");
+  }
+  else if (parts.mesh.refusal.empty())
+  {
+    notes.push_back("surfaces: " + std::to_string(weight.triangles) + " of " + std::to_string(weight.trianglesBefore) +
+                    " triangles, " + FormatNumber(weight.measuredError, 2) +
+                    " mm away at most where measured, nowhere more than " + FormatNumber(weight.surfaceError) +
+                    " mm; positions in steps of " + FormatNumber(weight.quantum, 2) + " mm");
   }
   else
   {
@@ -267,11 +286,6 @@ DescribeReduction(const PageWeight & weight, const PageContent & content, const 
                     (content.unit == "HU" ? " from -200 to 300 HU, by more elsewhere" : "") + ", those below " +
                     FormatNumber(weight.lowest, 5) + " and above " + FormatNumber(weight.highest, 5) + unit +
                     " are not told apart");
-  }
-  if (isReduced)
-  {
-    notes.push_back("size: reduced to stay below " + FormatNumber(static_cast<double>(content.largestSize) / 1e6, 3) +
-                    " MB");
   }
   if (weight.size > content.largestSize)
   {
@@ -291,6 +305,7 @@ WeightOf(const PageContent & content, const FixedParts & fixed, const ReducedPar
   weight.trianglesBefore = parts.mesh.trianglesBefore;
   weight.triangles = parts.mesh.triangles;
   weight.surfaceError = parts.mesh.error;
+  weight.measuredError = parts.mesh.measuredError;
   weight.quantum = parts.mesh.quantum;
   if (content.scan != nullptr)
   {
@@ -361,34 +376,35 @@ MakeInteractivePage(const PageContent & content, const Events & events)
   {
     throw Failure(FailureKind::Usage, "A page needs a surface, and there is none.");
   }
+  events.Progress("coding pictures", 0.0);
   const FixedParts fixed = MakeFixedParts(content);
+  events.Progress("sampling slices", 0.0);
   const PageVolume volume = content.scan != nullptr ? MakePageVolume(*content.scan, content.box) : PageVolume();
   PageMeshMaker maker = MakerOf(content);
   ReducedParts parts;
-  const Reduction * last = nullptr;
-  MadePage page;
-  for (const Reduction & reduction : Reductions)
+  const std::uintmax_t fixedSize =
+    std::size(PageScript) + std::size(PageStyle) + fixed.table.size() + fixed.pictures.size() + fixed.turntable.size();
+  std::uintmax_t room = 0;
+  for (const SliceCoding & coding : SliceCodings)
   {
-    events.Progress("fitting the page", static_cast<double>(&reduction - Reductions) / std::size(Reductions));
-    if (last == nullptr || (reduction.error > last->error && parts.mesh.refusal.empty()))
+    if (content.scan != nullptr)
     {
-      CodeSurfaces(reduction.error, maker, parts);
+      events.Progress("coding slices", 0.0);
+      CodeSlices(Coarsen(volume, coding.levelFactor, coding.sliceStep), parts);
     }
-    if (content.scan != nullptr &&
-        (last == nullptr || reduction.levelFactor > last->levelFactor || reduction.sliceStep > last->sliceStep))
-    {
-      CodeSlices(Coarsen(volume, reduction.levelFactor, reduction.sliceStep), parts);
-    }
-    page.weight = WeightOf(content, fixed, parts);
-    page.weight.size = std::size(PageScript) + std::size(PageStyle) + fixed.table.size() + page.weight.sizeOfSurfaces +
-                       page.weight.sizeOfSlices + page.weight.sizeOfPictures;
-    last = &reduction;
-    if (page.weight.size <= content.largestSize)
+    const std::uintmax_t taken = fixedSize + parts.sliceBlocks.size();
+    room = content.largestSize > taken ? content.largestSize - taken : 0;
+    if (static_cast<double>(room) >=
+        BytesOfTriangle * coding.leastShare * static_cast<double>(maker.GetNumberOfTriangles()))
     {
       break;
     }
   }
-  page.weight.notes = DescribeReduction(page.weight, content, parts, last != Reductions);
+  CodeSurfaces(room, events, maker, parts);
+  MadePage page;
+  page.weight = WeightOf(content, fixed, parts);
+  page.weight.size = fixedSize + parts.sliceBlocks.size() + parts.surfaceBlocks.size();
+  page.weight.notes = DescribeReduction(page.weight, content, parts);
   page.html = FillPage(content, fixed, parts, page.weight.notes);
   page.weight.size = page.html.size();
   return page;

@@ -2,6 +2,7 @@
 
 #include "rhombicPageBytes.h"
 
+#include "itkTriangleSurfaceDistance.h"
 #include "itkTriangleSurfaceSimplification.h"
 
 #include <meshoptimizer.h>
@@ -116,13 +117,21 @@ PageMeshMaker::PageMeshMaker(const std::vector<SceneSurface> & surfaces)
     m_Sheets.push_back(numbers[sides]);
   }
   m_Surface = joined.surface;
-  m_TrianglesBefore = m_Surface->GetNumberOfTriangles();
+  const auto original = Surface::New();
+  original->Graft(m_Surface);
+  m_Original = original;
+}
+
+std::size_t
+PageMeshMaker::GetNumberOfTriangles() const
+{
+  return m_Surface->GetNumberOfTriangles();
 }
 
 void
-PageMeshMaker::Simplify(double error)
+PageMeshMaker::Simplify(std::size_t triangles, double error, const ProgressFunction & report)
 {
-  if (error <= m_Error || !m_Refusal.empty())
+  if (triangles >= this->GetNumberOfTriangles() || error <= m_Error || !m_Refusal.empty())
   {
     return;
   }
@@ -131,7 +140,7 @@ PageMeshMaker::Simplify(double error)
   const auto sheets = m_Sheets;
   try
   {
-    SimplifyTriangleSurface(*m_Surface, m_Sheets, { 0, error - m_Error });
+    SimplifyTriangleSurface(*m_Surface, m_Sheets, { triangles, error - m_Error }, report); // distances add up
     m_Error = error;
   }
   catch (const itk::ExceptionObject & exception)
@@ -147,9 +156,14 @@ PageMeshMaker::Make() const
 {
   const Surface & surface = *m_Surface;
   PageMesh mesh;
-  mesh.trianglesBefore = m_TrianglesBefore;
+  mesh.trianglesBefore = m_Original->GetNumberOfTriangles();
   mesh.refusal = m_Refusal;
   mesh.error = m_Error;
+  if (m_Error > 0.0)
+  {
+    constexpr itk::SizeValueType measured = 30'000; // triangles of either surface
+    mesh.measuredError = ComputeTriangleSurfaceDistances(*m_Original, surface, measured).GetMaximum();
+  }
   mesh.triangles = surface.GetNumberOfTriangles();
   PlaceQuanta(surface, mesh);
   std::vector<std::uint32_t> corners = OrderTriangles(surface, m_Sides, m_Sheets, mesh);

@@ -1,6 +1,7 @@
 #ifndef rhombicPageMesh_h
 #define rhombicPageMesh_h
 
+#include "rhombicForEachBlock.h"
 #include "rhombicSceneSurface.h"
 #include "rhombicVector3.h"
 
@@ -32,7 +33,8 @@ struct PageMesh
   std::size_t points = 0;
   std::size_t triangles = 0;
   std::size_t trianglesBefore = 0; ///< of the surfaces that were given, with shared walls once
-  double error = 0.0;              ///< mm, by which the surfaces were simplified; 0: not at all
+  double error = 0.0;              ///< mm that no part of the surfaces was moved farther than; 0: not simplified
+  double measuredError = 0.0;      ///< mm, the largest distance where it was measured
   std::string refusal;             ///< why they were not simplified, as a sentence; empty if they were
   std::vector<PageSheet> sheets;   ///< in the order of their triangles
   std::string pointBytes;          ///< zlib streams of meshoptimizer's codes: 4 numbers for each point, the last 0,
@@ -46,20 +48,22 @@ class PageMeshMaker
 public:
   explicit PageMeshMaker(const std::vector<SceneSurface> & surfaces);
 
-  /** Simplifies until the surfaces are up to \a error mm from those that were given, where they were simplified less
-   * before: the distances add up. Surfaces that can't be simplified, as with edges that are not manifold, stay as they
-   * are. */
+  std::size_t
+  GetNumberOfTriangles() const;
+
+  /** Simplifies to so many triangles, if that moves no part of the surfaces farther than \a error mm from where they
+   * were at first. Surfaces that can't be simplified, as with edges that are not manifold, stay as they are. */
   void
-  Simplify(double error);
+  Simplify(std::size_t triangles, double error, const ProgressFunction & report = {});
 
   PageMesh
   Make() const;
 
 private:
+  itk::TriangleSurface::ConstPointer m_Original;
   itk::TriangleSurface::Pointer m_Surface;
   std::vector<std::array<std::uint32_t, 2>> m_Sides; ///< surfaces of the sheets
   std::vector<std::uint32_t> m_Sheets;               ///< of the triangles
-  std::size_t m_TrianglesBefore = 0;
   double m_Error = 0.0;
   std::string m_Refusal;
 };

@@ -25,6 +25,13 @@ function swatchOf(organ) {
   return svg;
 }
 
+/** "0.4 ml", "863 ml", "16.8 l". */
+function describeVolume(volume) {
+  if (volume === undefined) return '';
+  if (volume < 0.05) return '< 0.1 ml';
+  return volume < 99.95 ? volume.toFixed(1) + ' ml' : volume < 999.5 ? volume.toFixed(0) + ' ml' : (volume / 1000).toFixed(volume < 9995 ? 2 : 1) + ' l';
+}
+
 class List {
   constructor(viewer, place) {
     this.viewer = viewer;
@@ -43,7 +50,7 @@ class List {
     for (const [name, organs] of [...groups].sort(([a], [b]) => (a === 'other') - (b === 'other'))) {
       const rows = organs.map((organ) => this.rows[organ.number].element);
       if (!name) { place.append(...rows); continue; }
-      const box = make('input', { type: 'checkbox', checked: true, 'aria-label': 'Show the group ' + name });
+      const box = make('input', { type: 'checkbox', className: 'eye', checked: true, 'aria-label': 'Show the group ' + name });
       box.addEventListener('change', () => {
         for (const organ of organs) organ.visible = box.checked;
         this.viewer.changed();
@@ -57,18 +64,18 @@ class List {
   }
 
   makeRow(organ) {
-    const eye = make('input', { type: 'checkbox', checked: organ.visible, 'aria-label': 'Show ' + organ.name });
+    const eye = make('input', { type: 'checkbox', className: 'eye', checked: organ.visible, 'aria-label': 'Show ' + organ.name });
     eye.addEventListener('change', () => { organ.visible = eye.checked; this.viewer.changed(); });
     const name = make('button', { type: 'button', className: 'name', title: organ.name, dir: 'auto', textContent: organ.name });
     name.addEventListener('click', () => this.viewer.mark(organ.number));
     const opacity = make('input', { type: 'range', className: 'opacity', min: 0.05, max: 1, step: 0.05, value: organ.shown, 'aria-label': 'Opacity of ' + organ.name });
     opacity.addEventListener('input', () => { organ.shown = Number(opacity.value); this.viewer.changed(); });
-    const only = make('button', { type: 'button', className: 'only', textContent: '\u25ce', title: 'Only this', 'aria-label': 'Show only ' + organ.name });
+    const only = make('button', { type: 'button', className: 'only', textContent: 'only', title: 'Only this', 'aria-label': 'Show only ' + organ.name });
     only.addEventListener('click', () => {
       for (const other of this.viewer.organs) other.visible = other === organ;
       this.viewer.mark(organ.number);
     });
-    const volume = make('span', { className: 'volume', textContent: organ.volume === undefined ? '' : organ.volume < 0.05 ? '<0.1 ml' : organ.volume.toFixed(1) + ' ml' });
+    const volume = make('span', { className: 'volume', textContent: describeVolume(organ.volume) });
     const element = make('div', { className: 'organ' }, eye, swatchOf(organ), name, opacity, volume, only);
     return { element, eye, opacity };
   }

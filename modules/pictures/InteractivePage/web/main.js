@@ -328,9 +328,9 @@ class SliceTool {
     const stateOf = () => viewer.state;
     this.presets = presets;
     this.window = make('output', { className: 'value' });
-    this.value = make('output', { className: 'value' });
+    this.value = make('output', { className: 'value readout' });
     place.append(make('details', { open: true }, make('summary', { textContent: 'Slices' }),
-      make('p', { className: 'value' }, this.value),
+      this.value,
       make('div', { className: 'row' }, presets, this.window),
       make('div', { className: 'row' }, check('outlines', () => stateOf()?.outlines ?? true, (on) => { stateOf().outlines = on; }),
            check('crosshair', () => stateOf()?.crosshair ?? true, (on) => { stateOf().crosshair = on; })),
@@ -351,7 +351,7 @@ class SliceTool {
     const value = valueAt(volume, state.point);
     const last = volume.levels[volume.levels.length - 1];
     const shown = Number.isNaN(value) ? 'outside of the scan' : (value >= last ? '\u2265 ' : '') + formatNumber(value, Math.abs(last) < 20 ? 2 : 0) + ' ' + volume.unit;
-    this.value.replaceChildren('LPS ' + state.point.map((place) => formatNumber(place, 1)).join(', ') + ' mm: ', make('b', { textContent: shown }));
+    this.value.replaceChildren(make('span', { textContent: 'LPS ' + state.point.map((place) => formatNumber(place, 1)).join(', ') + ' mm: ' }), make('b', { textContent: shown }));
   }
 }
 
@@ -366,6 +366,7 @@ async function start() {
   await readOrgans(viewer.organs);
   viewer.takeOrgans();
   layers.start3d();
+  requestAnimationFrame(() => setTimeout(() => performance.mark('usable'), 0));
   if (viewer.volume) await readVolume(viewer.volume, (first, count) => viewer.takeSlices(first, count));
   requestAnimationFrame(() => requestAnimationFrame(() => { document.body.dataset.ready = 'yes'; }));
 }

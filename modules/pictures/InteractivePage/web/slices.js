@@ -196,11 +196,12 @@ class SliceView {
     const { state } = this.viewer;
     if (!state.crosshair) return;
     const [x, y] = this.positionOf(state.point).map((place) => Math.round(place) + 0.5);
-    const gap = 9 * ratio;
-    context.strokeStyle = 'rgba(120, 190, 255, 0.85)';
+    const gap = 9 * ratio, rim = 22 * ratio; // the letters' room
+    context.strokeStyle = 'rgba(121, 189, 255, 0.7)';
     context.lineWidth = ratio;
     context.beginPath();
-    for (const [fromX, fromY, toX, toY] of [[0, y, x - gap, y], [x + gap, y, this.canvas.width, y], [x, 0, x, y - gap], [x, y + gap, x, this.canvas.height]]) {
+    for (const [fromX, fromY, toX, toY] of [[Math.min(rim, x - gap), y, x - gap, y], [x + gap, y, Math.max(this.canvas.width - rim, x + gap), y],
+                                            [x, Math.min(rim, y - gap), x, y - gap], [x, y + gap, x, Math.max(this.canvas.height - rim, y + gap)]]) {
       context.moveTo(fromX, fromY);
       context.lineTo(toX, toY);
     }

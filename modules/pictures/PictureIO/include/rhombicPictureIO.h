@@ -25,6 +25,7 @@ struct PictureMetadata
   std::string commandLine;    ///< the command that made the picture
   double pixelsPerInch = 0.0; ///< for printing; 0: not written
   int jpegQuality = 95;       ///< 1 to 100
+  bool jpegHalves = false;    ///< whether JPEG files hold colours at half the size, which blurs those of thin lines
 };
 
 /** Throws Failure(Usage) where WritePicture() would throw it because of the extension, for a picture of 3 or 4
