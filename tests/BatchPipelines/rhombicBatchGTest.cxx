@@ -491,6 +491,19 @@ TEST(Batch, TheDefaultIsAPageWithAThumbnail)
   EXPECT_NE(ReadText(folder.Path() / "out/index.html").find("src=\"./case/thumbnail.jpg\""), std::string::npos);
 }
 
+TEST(Batch, TheIndexLeadsToInteractivePages)
+{
+  const TemporaryFolder folder;
+  fs::copy(phantom / "phantom.nii.gz", folder.Path());
+  std::ofstream(folder.Path() / "pipeline.yaml") << "outputs:\n  - page: page.html\n    preset: ct-bone\n";
+  const Outcome outcome = RunShell("rhombic batch phantom.nii.gz --pipeline pipeline.yaml -o out", folder.Path());
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
+  EXPECT_EQ(ReadText(folder.Path() / "out/case/page.html").substr(0, 15), "<!doctype html>");
+  const std::string index = ReadText(folder.Path() / "out/index.html");
+  EXPECT_NE(index.find("<a href=\"./case/page.html\">page.html</a>"), std::string::npos);
+  EXPECT_NE(index.find("<a href=\"./case/page.html\"><img "), std::string::npos) << "the thumbnail leads there, too";
+}
+
 TEST(Batch, TheChosenPresetFitsScanAndLabels)
 {
   const TemporaryFolder folder;

@@ -148,6 +148,7 @@ ExpectNothingGetsOut(const fs::path & scan, const std::string & threshold, const
     "-v render SCAN --surface a=" + threshold + " --size 64 -o a.png",
     "render SCAN --surface a=" + threshold + " --size 64 -o a.tif",
     "render SCAN --surface a=" + threshold + " --size 64 -o a.jpg",
+    "-v render SCAN --surface a=" + threshold + " -o a.html",
     // The one that is asked to; studies without a UID are refused.
     "render SCAN --surface a=" + threshold +
       " --size 64 --dicom-sc -o c.png && rm c.dcm || rhombic render SCAN --surface a=" + threshold +
@@ -187,7 +188,7 @@ ExpectNothingGetsOut(const fs::path & scan, const std::string & threshold, const
     ++files;
     search(ReadText(entry.path()), entry.path().filename().string());
   }
-  EXPECT_EQ(files, 24u) << "outputs and their sidecars";
+  EXPECT_EQ(files, 26u) << "outputs and their sidecars";
 }
 
 TEST(Privacy, NothingAboutThePatientGetsOut)

@@ -192,18 +192,23 @@ MakeRow(const Report & record)
   const std::string word = status.substr(0, status.find(' '));
   std::string picture;
   std::string links;
+  std::string page; // that the picture leads to
   for (const Report & output : record.value("outputs", Report::array()))
   {
     const auto file = output.value("name", std::string());
+    const std::string link = "<a href=\"" + LinkTo(folder, file) + "\">";
+    const std::string extension = fs::path(file).extension().string();
     if (file == ThumbnailFile)
     {
-      picture = "<img loading=\"lazy\" alt=\"\" src=\"" + LinkTo(folder, file) + "\">";
+      picture = "<img loading=\"lazy\" alt=\"" + Escape(name) + "\" src=\"" + LinkTo(folder, file) + "\">";
     }
-    else if (file.size() < 5 || file.substr(file.size() - 5) != ".json")
+    else if (extension != ".json")
     {
-      links += (links.empty() ? "" : "<br>") + ("<a href=\"" + LinkTo(folder, file) + "\">") + Escape(file) + "</a>";
+      links += (links.empty() ? "" : "<br>") + link + Escape(file) + "</a>";
+      page = page.empty() && extension == ".html" ? link : page;
     }
   }
+  picture = page.empty() || picture.empty() ? picture : page + picture + "</a>";
   const std::string failed = ListOf(record, "failedOutputs");
   const std::string notMade = failed.empty() ? "" : " Not made: " + failed;
   return "<tr data-status=\"" + word + "\"><td>" + picture + "</td><td>" +

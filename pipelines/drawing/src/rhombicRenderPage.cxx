@@ -170,6 +170,7 @@ ContentOf(const RenderPageSettings & settings, const PictureScene & scene)
     const LegendRow & row = scene.rows[n];
     const std::string group = row.group.empty() ? "other" : row.group;
     page.surfaces.push_back({ scene.surfaces[n], hasGroups ? group : "", row.volume, row.area, row.mean });
+    page.surfaces.back().scene.name = row.name;
   }
   if (settings.hasSlices && scene.scan)
   {

@@ -230,13 +230,13 @@ async function checkKeyboard(page) {
   await page.evaluate(() => { for (const details of document.querySelectorAll('#tools details')) details.open = false; });
   const walk = async () => {
     await page.evaluate(() => { document.activeElement.blur(); document.body.dataset.walk = ''; });
-    const missing = await page.evaluate(() => {
+    const count = await page.evaluate(() => {
       window.controls = [...document.querySelectorAll('#app button, #app input, #app select, #app summary, #app [tabindex="0"]')]
         .filter((element) => element.checkVisibility({ visibilityProperty: true }));
       return window.controls.length;
     });
     const found = new Set(), unseen = [];
-    for (let n = 0; n < missing + 3; n++) {
+    for (let n = 0; n < count + 6; n++) {
       await page.keyboard.press('Tab');
       const { index, name, isSeen } = await page.evaluate(() => {
         const element = document.activeElement, style = getComputedStyle(element), box = element.getBoundingClientRect();
@@ -247,14 +247,15 @@ async function checkKeyboard(page) {
       if (index >= 0) found.add(index);
       if (index >= 0 && !isSeen) unseen.push(name);
     }
-    return { all: missing, found: found.size, unseen };
+    const missed = await page.evaluate((reached) => window.controls.filter((control, n) => !reached.includes(n)).map((control) => control.ariaLabel || control.textContent), [...found]);
+    return { all: count, found: found.size, unseen, missed };
   };
   const closed = await walk();
   check(closed.found === closed.all, `the keyboard reaches ${closed.found} of ${closed.all} controls`);
   for (const name of ['Cut', 'Measure', 'Share']) await page.locator('summary', { hasText: name }).press('Enter');
   await page.getByRole('combobox', { name: 'Plane of the cut' }).selectOption('axial');
   const open = await walk();
-  check(open.all > closed.all && open.found === open.all, `and ${open.found} of ${open.all} in opened tools`);
+  check(open.all > closed.all && open.found === open.all, `and ${open.found} of ${open.all} in opened tools ${open.missed}`);
   check(closed.unseen.length + open.unseen.length === 0, `each shows its focus ${[...closed.unseen, ...open.unseen].join(', ')}`);
   await page.getByRole('combobox', { name: 'Plane of the cut' }).selectOption('off');
   await page.locator('#canvas').focus();
@@ -266,10 +267,12 @@ async function checkKeyboard(page) {
   const set = page.getByRole('button', { name: 'Set points' });
   await set.press('Enter');
   await page.getByRole('button', { name: 'Point at the crosshair' }).press('Enter');
+  await drawn(page);
   check(await page.locator('.points li').count() === 1, 'a point is set without a mouse');
   await page.keyboard.press('Escape');
   check(await page.getByRole('button', { name: 'Set points' }).getAttribute('aria-pressed') === 'false', 'Escape ends the setting of points');
   await page.locator('.organ .name').first().press('Enter');
+  await drawn(page);
   check(await page.locator('.organ.marked').count() === 1, 'a name marks its row');
   await page.keyboard.press('Escape');
   await drawn(page);
@@ -454,7 +457,7 @@ await open('shell.html', { viewport: { width: 360, height: 640 }, hasTouch: true
   const enlarged = await copyState(page);
   check(enlarged.s < 0.6 * turned.s, `two fingers enlarge it ${(turned.s / enlarged.s).toFixed(1)} times`);
   const small = await page.evaluate(() => [...document.querySelectorAll('#app button, #app input, #app select, #app summary')]
-    .filter((element) => element.checkVisibility() && element.getBoundingClientRect().height < 24).map((element) => element.ariaLabel || element.textContent));
+    .filter((element) => element.checkVisibility() && (element.closest('label') || element).getBoundingClientRect().height < 24).map((element) => element.ariaLabel || element.textContent));
   check(small.length === 0, `controls are as high as a finger's tip ${small.join(', ')}`);
   await page.screenshot({ path: 'phone.png', fullPage: true });
 });

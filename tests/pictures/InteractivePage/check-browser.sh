@@ -16,6 +16,7 @@ mkdir -p "$folder"
 cp "$here"/package.json "$here"/package-lock.json "$here"/check-browser.mjs "$here"/make-scans.mjs "$folder"
 if [ ! -d "$folder/node_modules/playwright-core" ]; then
   (cd "$folder" && timeout 300 npm ci --ignore-scripts --no-audit --no-fund) || { echo "skipped: npm can't fetch packages"; exit 77; }
+  "$here"/../../../modules/pictures/InteractivePage/web/vendor/update.sh # the vendored files are those of their package
 fi
 cd "$folder"
 labels=(--labels "$phantom/phantom-labels.nii.gz" --label heart --label liver --label marker --label "right lung")

@@ -3,7 +3,7 @@
 import { writeFileSync } from 'node:fs';
 
 export const centre = [12, -34, 56];              // LPS mm, of the body
-export const ball = { at: [42, -54, 81], radius: 12 }; // on the patient's left, in front, near the head
+export const ball = { at: [32, -46, 74], radius: 12 }; // on the patient's left, in front, near the head
 
 const size = [60, 54, 48], spacing = [2, 2, 3];
 const degrees = Math.PI / 180;
@@ -61,5 +61,5 @@ if (process.argv[1].endsWith('make-scans.mjs')) {
   const labelAt = (point) => (valueAt(point) > 500 ? 2 : valueAt(point) > -300 ? (point[2] < centre[2] ? 1 : 3) : 0);
   writeScan('named.nii', size, columnsOf(0, 0, 0), 2, labelAt);
   writeScan('unnamed.nii', size, columnsOf(0, 0, 0), 2, labelAt);
-  writeFileSync('named.tsv', 'index\tname\n1\t</script><img src=x onerror=alert(1)>\n2\tthe "ball" & \'co\' <!-- {{title}}\n3\t\u05db\u05d1\u05d3 \u0643\u0628\u062f\n');
+  writeFileSync('named.tsv', 'index\tname\n1\t</script><img src=x onerror=alert(1)>\n2\t"the ""ball"" & \'co\' <!-- {{title}}"\n3\t\u05db\u05d1\u05d3 \u0643\u0628\u062f\n');
 }

@@ -20,6 +20,7 @@ class Viewer {
       points: [], marked: -1, isLight: light.matches, perspective: false,
     };
     this.read = 0; // parts of the page's data
+    this.isRead = false; // all slices
     this.pause = 200; // ms of rest before a slow machine draws all
     light.addEventListener('change', () => { this.state.isLight = light.matches; this.changed(); });
     this.list = new List(this, document.getElementById('list'));
@@ -83,7 +84,7 @@ class Viewer {
     this.state.centre = centreOf(box);
     const views = document.getElementById('views');
     const isNarrow = views.offsetWidth > 0.8 * canvas.clientWidth; // then the buttons lie above the scene, not beside it
-    const width = 0.9 * canvas.clientWidth, height = isNarrow ? canvas.clientHeight - 4 * views.offsetHeight : 0.9 * canvas.clientHeight;
+    const width = 0.9 * canvas.clientWidth, height = isNarrow ? canvas.clientHeight - 3 * views.offsetHeight : 0.9 * canvas.clientHeight;
     this.state.scale = Math.max(2 * reachOf(box, frame.right) / width, 2 * reachOf(box, frame.up) / Math.max(height, 50), 1e-3);
     if (isNarrow) this.state.centre = along(this.state.centre, frame.up, 0.6 * views.offsetHeight * this.state.scale);
   }
@@ -304,6 +305,7 @@ class Viewer {
   /** Some slices of the scan are read. */
   takeSlices(first, count) {
     this.read++;
+    this.isRead = first + count >= this.volume.size[2];
     if (this.scene) this.scene.loadSlices(first, count);
     this.changed();
   }
@@ -350,7 +352,7 @@ class SliceTool {
     if (!volume) return;
     const value = valueAt(volume, state.point);
     const last = volume.levels[volume.levels.length - 1];
-    const shown = Number.isNaN(value) ? 'outside of the scan' : (value >= last ? '\u2265 ' : '') + formatNumber(value, Math.abs(last) < 20 ? 2 : 0) + ' ' + volume.unit;
+    const shown = !this.viewer.isRead ? '\u2026' : Number.isNaN(value) ? 'outside of the scan' : (value >= last ? '\u2265 ' : '') + formatNumber(value, Math.abs(last) < 20 ? 2 : 0) + ' ' + volume.unit;
     this.value.replaceChildren(make('span', { textContent: 'LPS ' + state.point.map((place) => formatNumber(place, 1)).join(', ') + ' mm: ' }), make('b', { textContent: shown }));
   }
 }
