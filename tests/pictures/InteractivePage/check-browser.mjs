@@ -227,6 +227,9 @@ async function checkSharing(page) {
 
 /** A reader without a mouse reaches every control, sees where the focus is, turns the scene, and comes away again. */
 async function checkKeyboard(page) {
+  await page.locator('summary', { hasText: 'Measure' }).evaluate((summary) => { summary.parentElement.open = true; });
+  await page.getByRole('button', { name: 'Remove all' }).click();
+  await drawn(page);
   await page.evaluate(() => { for (const details of document.querySelectorAll('#tools details')) details.open = false; });
   const walk = async () => {
     await page.evaluate(() => { document.activeElement.blur(); document.body.dataset.walk = ''; });

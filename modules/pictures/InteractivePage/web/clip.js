@@ -49,10 +49,10 @@ class CutTool {
 
   update() {
     const { cut } = this.viewer.state;
+    if (cut.kind !== 'off' && cut.kind !== this.select.value) this.element.open = true;
     this.select.value = cut.kind;
     this.second.hidden = this.flip.hidden = cut.kind === 'off';
     if (cut.kind === 'off') return;
-    this.element.open = true;
     const [middle, reach] = this.range();
     this.slider.min = middle - reach;
     this.slider.max = middle + reach;

@@ -82,6 +82,7 @@ class Measure {
     const { state } = this.viewer;
     const shown = this.list.querySelectorAll('input');
     if (shown.length !== state.points.length) {
+      this.element.open = this.element.open || state.points.length > shown.length;
       this.list.replaceChildren(...state.points.map((point, n) => {
         const name = make('input', { type: 'text', value: point.name, 'aria-label': 'Name of point ' + (n + 1), dir: 'auto' });
         name.addEventListener('change', () => { point.name = name.value; });
@@ -94,7 +95,6 @@ class Measure {
     }
     this.result.replaceChildren(...this.pairs().map(([a, b, distance]) =>
       make('p', { className: 'value distance' }, `${a.name} to ${b.name}: `, make('b', { textContent: distance.toFixed(1) + ' mm' }), ' (not for diagnosis)')));
-    if (state.points.length > 0) this.element.open = true;
   }
 }
 
