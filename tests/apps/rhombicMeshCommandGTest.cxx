@@ -53,7 +53,7 @@ protected:
 
 TEST_F(MeshCommand, ScenesHoldTheSurfacesOfAPreset)
 {
-  for (const std::string extension : { "glb", "vtp", "ply", "obj" })
+  for (const std::string extension : { "glb", "vtp", "ply", "obj", "3mf" })
   {
     ASSERT_EQ(this->Mesh("--preset ct-bone-skin -o scene." + extension).exitCode, 0) << extension;
     const auto scene = this->Read("scene." + extension);

@@ -218,7 +218,7 @@ WriteSurfaceFiles(const fs::path & folder)
   surface->GetTriangles() = { { 0, 2, 1 }, { 0, 1, 3 }, { 1, 2, 3 }, { 2, 0, 3 } };
   const rhombictest::TemporaryFolder temporary;
   char kind = '\0';
-  for (const std::string extension : { ".stl", ".ply", ".obj", ".glb" })
+  for (const std::string extension : { ".stl", ".ply", ".obj", ".glb", ".3mf" })
   {
     std::vector<rhombic::SceneSurface> scene(kind == 0 ? 1 : 2, { "a b", surface });
     scene.back().opacity = 0.5;

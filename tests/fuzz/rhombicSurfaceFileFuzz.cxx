@@ -35,7 +35,11 @@ extern "C" int
 LLVMFuzzerTestOneInput(const std::uint8_t * data, std::size_t size)
 {
   constexpr decltype(&rhombic::ReadSTL) readers[]{
-    rhombic::ReadSTL, rhombic::ReadPLY, rhombic::ReadOBJ, rhombic::ReadGLB // VTK reads VTP, in a child process
+    rhombic::ReadSTL,
+    rhombic::ReadPLY,
+    rhombic::ReadOBJ,
+    rhombic::ReadGLB,
+    rhombic::Read3MF // VTK reads VTP, in a child process
   };
   if (size == 0)
   {

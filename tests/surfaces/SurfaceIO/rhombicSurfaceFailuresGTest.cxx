@@ -97,7 +97,7 @@ TEST_F(SurfaceFailures, FileSizeLimitIsAnErrorWhereTheProgramIgnoresItsSignal)
     EXPECT_TRUE(FailedAsOutput(status)) << extension << status;
     EXPECT_EQ(ReadBytes(path), before) << extension;
   }
-  EXPECT_EQ(CountFiles(), 6u);
+  EXPECT_EQ(CountFiles(), 7u);
 }
 
 TEST_F(SurfaceFailures, FileSizeLimitThatKillsLeavesTheOldFileAndTheNextWriteCleansUp)

@@ -58,9 +58,12 @@ TEST_F(SurfaceIO, ScenesComeBackAsTheyWere)
       {
         EXPECT_EQ(read[n].name, scene[n].name) << extension;
         EXPECT_EQ(Bytes(read[n]), Bytes(scene[n])) << extension;
-        EXPECT_EQ(read[n].opacity, scene[n].opacity) << extension;
+        EXPECT_NEAR(read[n].opacity, scene[n].opacity, extension == ".3mf" ? 0.5 / 255 : 0) << extension;
         EXPECT_EQ(read[n].surface->GetPoints(), scene[n].surface->GetPoints()) << extension;
-        EXPECT_EQ(read[n].surface->GetNormals(), scene[n].surface->GetNormals()) << extension;
+        if (rhombic::StoresNormals(path))
+        {
+          EXPECT_EQ(read[n].surface->GetNormals(), scene[n].surface->GetNormals()) << extension;
+        }
         EXPECT_EQ(read[n].surface->GetTriangles(), scene[n].surface->GetTriangles()) << extension;
       }
     }
@@ -77,11 +80,15 @@ TEST_F(SurfaceIO, AnyFloatsComeBackAsTheyWere)
     {
       const fs::path path = m_Folder / ("any" + extension);
       const auto space = seed % 2 == 0 ? SurfaceFileSpace::LPS : SurfaceFileSpace::RAS;
+      if (extension == ".3mf")
+      {
+        RemoveDegenerate(*surface);
+      }
       WriteSurfaces({ { "any", surface } }, path, { space });
       const auto read = ReadSurfaces(path);
       ASSERT_EQ(read.size(), 1u);
       EXPECT_EQ(read[0].name, "any");
-      ExpectSameCorners(*read[0].surface, *surface, extension != ".stl", extension);
+      ExpectSameCorners(*read[0].surface, *surface, rhombic::StoresNormals(path), extension);
     }
   }
 }
@@ -97,6 +104,10 @@ TEST_F(SurfaceIO, StoredSurfacesAreThoseThatAreRead)
     for (const std::string extension : Extensions)
     {
       const fs::path path = m_Folder / ("stored" + extension);
+      if (extension == ".3mf")
+      {
+        RemoveDegenerate(*surface);
+      }
       const auto stored = rhombic::SurfaceAsStored(*surface, path);
       WriteSurfaces({ { "stored", surface } }, path);
       const auto read = ReadSurfaces(path).at(0).surface;
@@ -198,7 +209,7 @@ TEST_F(SurfaceIO, SameBytesAgainAndInAnotherLocale)
     std::locale::global(before);
     EXPECT_EQ(ReadBytes(m_Folder / ("first" + extension)), ReadBytes(m_Folder / "second" / ("first" + extension)));
     EXPECT_EQ(read[0].surface->GetPoints().size(), scene[0].surface->GetPoints().size()) << extension;
-    EXPECT_EQ(read.back().opacity, extension == ".stl" ? 1.0 : 0.75) << extension;
+    EXPECT_NEAR(read.back().opacity, extension == ".stl" ? 1.0 : 0.75, 0.5 / 255) << extension;
   }
   EXPECT_EQ(ReadBytes(m_Folder / "first.mtl"), ReadBytes(m_Folder / "second" / "first.mtl"));
 }
@@ -208,13 +219,13 @@ TEST_F(SurfaceIO, RefusesWhatMakesNoSense)
   const SceneSurface sphere{ "sphere", MakeSphere(1) };
   using Kind = rhombic::FailureKind;
   EXPECT_EQ(KindOf([&] { WriteSurfaces({ sphere }, m_Folder / "sphere.xyz"); }, "sphere.xyz"), Kind::Usage);
-  EXPECT_EQ(KindOf([&] { WriteSurfaces({ sphere }, m_Folder / "sphere"); }, ".stl, .ply, .obj, .vtp, .glb"),
+  EXPECT_EQ(KindOf([&] { WriteSurfaces({ sphere }, m_Folder / "sphere"); }, ".stl, .ply, .obj, .vtp, .glb, .3mf"),
             Kind::Usage);
   EXPECT_EQ(KindOf(
               [&] {
                 WriteSurfaces({ sphere, sphere }, m_Folder / "two.stl");
               },
-              ".ply, .obj, .vtp, .glb"),
+              ".ply, .obj, .vtp, .glb, .3mf"),
             Kind::Usage);
   EXPECT_EQ(KindOf([&] { rhombic::CheckSurfacePath("two.stl", 2); }, "two.stl"), Kind::Usage);
   EXPECT_NO_THROW(rhombic::CheckSurfacePath("two.glb", 2));
@@ -262,7 +273,7 @@ TEST_F(SurfaceIO, ReplacesAFileThatExists)
     WriteSurfaces({ { "sphere", MakeSphere(1) } }, path);
     EXPECT_EQ(ReadSurfaces(path)[0].surface->GetNumberOfTriangles(), 32u);
   }
-  EXPECT_EQ(CountFiles(), 6u) << "with the materials of OBJ";
+  EXPECT_EQ(CountFiles(), 7u) << "with the materials of OBJ";
 }
 
 TEST_F(SurfaceIO, GLBStandsUprightInMetres)

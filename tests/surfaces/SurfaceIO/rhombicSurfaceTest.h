@@ -105,6 +105,15 @@ MakeRandomSurface(unsigned int seed, std::uint32_t points = 300, int triangles =
   return surface;
 }
 
+/** Removes triangles with one point at two corners, which 3MF forbids. */
+inline void
+RemoveDegenerate(Surface & surface)
+{
+  auto & triangles = surface.GetTriangles();
+  const auto isDegenerate = [](const auto & t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; };
+  triangles.erase(std::remove_if(triangles.begin(), triangles.end(), isDegenerate), triangles.end());
+}
+
 inline std::string
 ReadBytes(const fs::path & path)
 {
@@ -146,8 +155,8 @@ private:
   const rhombictest::TemporaryFolder m_TemporaryFolder;
 
 protected:
-  static constexpr const char * Extensions[]{ ".stl", ".ply", ".obj", ".vtp", ".glb" };
-  static constexpr const char * SceneExtensions[]{ ".ply", ".obj", ".vtp", ".glb" };
+  static constexpr const char * Extensions[]{ ".stl", ".ply", ".obj", ".vtp", ".glb", ".3mf" };
+  static constexpr const char * SceneExtensions[]{ ".ply", ".obj", ".vtp", ".glb", ".3mf" };
 
   std::size_t
   CountFiles() const

@@ -25,7 +25,7 @@ struct SurfaceFileSettings
   SurfaceFileSpace space = SurfaceFileSpace::LPS;
 };
 
-/** The extensions of all formats, for help texts: ".stl, .ply, .obj, .vtp, .glb". */
+/** The extensions of all formats, for help texts: ".stl, .ply, .obj, .vtp, .glb, .3mf". */
 std::string
 GetSurfaceFileExtensions();
 
@@ -34,7 +34,8 @@ GetSurfaceFileExtensions();
 void
 CheckSurfacePath(const std::filesystem::path & path, std::size_t numberOfSurfaces = 1);
 
-/** Whether files of this format hold the normals of points: all but STL. Throws Failure(Usage) for another extension.
+/** Whether files of this format hold the normals of points: all but STL and 3MF. Throws Failure(Usage) for another
+ * extension.
  */
 bool
 StoresNormals(const std::filesystem::path & path);
@@ -59,6 +60,8 @@ SurfaceAsStored(const itk::TriangleSurface & surface, const std::filesystem::pat
  *   counter-clockwise seen from outside of the first
  * - `.glb`: binary glTF 2.0; a node, mesh and material per surface; the matrix of a root node converts millimetres and
  *   the patient's axes to glTF's metres with y up
+ * - `.3mf`: 3D Manufacturing Format, for printers; an object and material per surface, in millimetres, without normals.
+ *   Opacities have 8 bits
  *
  * Coordinates are stored in millimetres along the axes of the settings' space, which the file names: `SPACE=LPS`, as
  * 3D Slicer expects it. Normals are written if a surface has them (PLY and VTP: if all have). Control characters and
@@ -68,8 +71,8 @@ SurfaceAsStored(const itk::TriangleSurface & surface, const std::filesystem::pat
  * The bytes of the file are read back and compared, by their CRC-32, before it appears, complete or not at all; an
  * existing file is replaced. The materials of an OBJ file appear just before it. Throws
  * Failure(Usage) for another extension or several surfaces in an STL file, Failure(Empty) for a surface without
- * triangles or no surface, and Failure(Output) if the file can't be written, the surfaces are too large for the format
- * or a position is not finite. */
+ * triangles or no surface, and Failure(Output) if the file can't be written, the surfaces are too large for the format,
+ * a position is not finite, or a triangle has one point at two corners in a 3MF file. */
 void
 WriteSurfaces(const std::vector<SceneSurface> & surfaces,
               const std::filesystem::path & path,
@@ -84,7 +87,8 @@ StageSurfaces(const std::vector<SceneSurface> & surfaces,
 
 /** Reads surfaces in LPS millimetres from a file of one of these formats, written by this or other programs, binary or
  * text. Coordinates of files that declare RAS are converted. The transforms of a GLB's nodes are applied, and its
- * metres and y-up undone; numbers in other formats are taken for millimetres.
+ * metres and y-up undone; of a 3MF, what is to be built is read where it is to be built, in its unit. Numbers in other
+ * formats are taken for millimetres.
  *
  * VTP files with the cell array BoundaryLabels give the closed surface of each label. Equal points of an STL file
  * become one point; polygons become fans of triangles; points of no triangle are kept, except in OBJ. A surface without

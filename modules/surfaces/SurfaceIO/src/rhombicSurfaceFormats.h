@@ -81,6 +81,11 @@ WriteGLB(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, Out
 std::vector<SceneSurface>
 ReadGLB(const InputFile & file);
 
+void
+Write3MF(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, OutputFile & file);
+std::vector<SceneSurface>
+Read3MF(const InputFile & file);
+
 } // namespace rhombic
 
 #endif

@@ -38,15 +38,17 @@ struct SurfaceFormat
   const char * extension;
   bool holdsSeveral; ///< can hold several surfaces
   bool hasMaterials; ///< has materials in a second file
+  bool hasNormals;
   void (*write)(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, OutputFile & file);
   std::vector<SceneSurface> (*read)(const InputFile & file);
 };
 
-constexpr std::array<SurfaceFormat, 5> SurfaceFormats{ { { ".stl", false, false, WriteSTL, ReadSTL },
-                                                         { ".ply", true, false, WritePLY, ReadPLY },
-                                                         { ".obj", true, true, WriteOBJ, ReadOBJ },
-                                                         { ".vtp", true, false, WriteVTP, ReadVTP },
-                                                         { ".glb", true, false, WriteGLB, ReadGLB } } };
+constexpr std::array<SurfaceFormat, 6> SurfaceFormats{ { { ".stl", false, false, false, WriteSTL, ReadSTL },
+                                                         { ".ply", true, false, true, WritePLY, ReadPLY },
+                                                         { ".obj", true, true, true, WriteOBJ, ReadOBJ },
+                                                         { ".vtp", true, false, true, WriteVTP, ReadVTP },
+                                                         { ".glb", true, false, true, WriteGLB, ReadGLB },
+                                                         { ".3mf", true, false, false, Write3MF, Read3MF } } };
 
 template <typename TPredicate>
 std::string
@@ -201,7 +203,7 @@ CheckSurfacePath(const fs::path & path, std::size_t numberOfSurfaces)
 bool
 StoresNormals(const fs::path & path)
 {
-  return FormatOf(path, "write").holdsSeveral;
+  return FormatOf(path, "write").hasNormals;
 }
 
 std::vector<fs::path>
