@@ -456,7 +456,7 @@ check doctor '
   rhombic --version'
 check help '
   rhombic --help
-  for command in info render mesh batch bids compare-pictures audit resample compare phantom doctor; do
+  for command in info render mesh batch bids compare-labels compare-pictures audit resample compare phantom doctor; do
     rhombic $command --help
   done'
 

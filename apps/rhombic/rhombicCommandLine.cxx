@@ -24,6 +24,7 @@ constexpr CommandEntry entries[] = {
   { "mesh", "A scan's surface as a file", AddMeshCommand },
   { "batch", "Pictures, pages and meshes of many scans", AddBatchCommand },
   { "bids", "The same of a BIDS dataset, as a BIDS App", AddBIDSCommand },
+  { "compare-labels", "How well two segmentations agree, label by label", AddOnDemandCommand },
   { "compare-pictures", "Whether two pictures are the same, within a tolerance", AddOnDemandCommand },
   { "audit", "Whether a surface file is closed, oriented and free of defects", AddAuditCommand },
   { "resample", "A scan on the face-centered cubic lattice, and back", AddResampleCommand },

@@ -61,6 +61,8 @@ AddRenderCommand(CommandSettings & command);
 CommandRun
 AddComparePicturesCommand(CommandSettings & command);
 CommandRun
+AddCompareLabelsCommand(CommandSettings & command);
+CommandRun
 AddCompareCommand(CommandSettings & command);
 CommandRun
 AddPhantomCommand(CommandSettings & command);

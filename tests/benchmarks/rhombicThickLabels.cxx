@@ -269,7 +269,7 @@ MeasureScan(const std::vector<std::string> & names,
     const double volume = std::abs(ComputeTriangleSurfaceVolume(surface)) / 1000.0;
     const double error = 100.0 * std::abs(volume / labels[n].millilitres - 1.0);
     const std::array<double, 4> figures{
-      ComputeTriangleSurfaceBending(surface), distance.mean, distance.percentile95, error
+      ComputeTriangleSurfaceBending(surface), distance.GetMean(), distance.FindPercentile(95.0), error
     };
     for (std::size_t figure = 0; figure < figures.size(); ++figure)
     {

@@ -10,8 +10,11 @@ rhombicAddOnDemandCommand(rhombic::CommandSettings & command, rhombic::CommandRu
 {
   using namespace rhombic;
   static const std::map<std::string, CommandRun (*)(CommandSettings &)> commands{
-    { "render", AddRenderCommand },   { "compare-pictures", AddComparePicturesCommand },
-    { "compare", AddCompareCommand }, { "phantom", AddPhantomCommand },
+    { "render", AddRenderCommand },
+    { "compare-labels", AddCompareLabelsCommand },
+    { "compare-pictures", AddComparePicturesCommand },
+    { "compare", AddCompareCommand },
+    { "phantom", AddPhantomCommand },
     { "doctor", AddDoctorCommand },
   };
   run = commands.at(command.GetCommand())(command);

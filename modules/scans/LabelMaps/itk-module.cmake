@@ -1,3 +1,3 @@
 itk_module(LabelMaps
-  DEPENDS RhombicCommon ScanIO
+  DEPENDS RhombicCommon ScanIO ITKTransform
   DESCRIPTION "What a label map tells: colours that set labels that touch apart, and doubts that it belongs to a scan.")

@@ -136,7 +136,7 @@ TEST(TriangleSurfaceSimplification, SphereReachesItsTarget)
               ComputeTriangleSurfaceVolume(*before),
               0.005 * ComputeTriangleSurfaceVolume(*before));
   const auto distances = ComputeTriangleSurfaceDistances(*before, *surface);
-  EXPECT_LT(distances.fromFirst.mean, 0.015);
+  EXPECT_LT(distances.fromFirst.GetMean(), 0.015);
   EXPECT_LT(distances.GetMaximum(), 0.06);
 }
 

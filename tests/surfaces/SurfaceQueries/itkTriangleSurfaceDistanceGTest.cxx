@@ -24,11 +24,11 @@ TEST(TriangleSurfaceDistance, ConcentricSpheresAreTheirRadiiApart)
   const auto distances = ComputeTriangleSurfaceDistances(*inner, *outer);
   for (const auto & distance : { distances.fromFirst, distances.fromSecond })
   {
-    EXPECT_NEAR(distance.mean, 2.0, 0.02);
-    EXPECT_NEAR(distance.percentile95, 2.0, 0.02);
-    EXPECT_NEAR(distance.maximum, 2.0, 0.02);
+    EXPECT_NEAR(distance.GetMean(), 2.0, 0.02);
+    EXPECT_NEAR(distance.FindPercentile(95.0), 2.0, 0.02);
+    EXPECT_NEAR(distance.GetMaximum(), 2.0, 0.02);
   }
-  EXPECT_EQ(distances.GetMaximum(), std::max(distances.fromFirst.maximum, distances.fromSecond.maximum));
+  EXPECT_EQ(distances.GetMaximum(), std::max(distances.fromFirst.GetMaximum(), distances.fromSecond.GetMaximum()));
 }
 
 TEST(TriangleSurfaceDistance, IsNotTheSameBothWays)
@@ -37,10 +37,10 @@ TEST(TriangleSurfaceDistance, IsNotTheSameBothWays)
   const auto two = MakeSphere(10.0, 4);
   Append(*two, *MakeSphere(1.0, 2), { 30.0f, 0.0f, 0.0f });
   const auto distances = ComputeTriangleSurfaceDistances(*one, *two);
-  EXPECT_NEAR(distances.fromFirst.maximum, 0.0, 1e-6);
-  EXPECT_NEAR(distances.fromSecond.maximum, 21.0, 0.1);
-  EXPECT_NEAR(distances.fromSecond.percentile95, 0.0, 1e-6) << "the small sphere has a hundredth of the area";
-  EXPECT_NEAR(distances.fromSecond.mean, 20.0 / 101.0, 0.01);
+  EXPECT_NEAR(distances.fromFirst.GetMaximum(), 0.0, 1e-6);
+  EXPECT_NEAR(distances.fromSecond.GetMaximum(), 21.0, 0.1);
+  EXPECT_NEAR(distances.fromSecond.FindPercentile(95.0), 0.0, 1e-6) << "the small sphere has a hundredth of the area";
+  EXPECT_NEAR(distances.fromSecond.GetMean(), 20.0 / 101.0, 0.01);
 }
 
 TEST(TriangleSurfaceDistance, MaximumIsThatOfBruteForceAtTheSamePlaces)
@@ -62,7 +62,7 @@ TEST(TriangleSurfaceDistance, MaximumIsThatOfBruteForceAtTheSamePlaces)
         furthest = std::max(furthest, bruteforce::DistanceToSurface(bruteforce::Mix(corners, a, b, c), *two));
       }
     }
-    EXPECT_NEAR(ComputeTriangleSurfaceDistance(*one, TriangleTree(*two)).maximum, furthest, 1e-5);
+    EXPECT_NEAR(ComputeTriangleSurfaceDistance(*one, TriangleTree(*two)).GetMaximum(), furthest, 1e-5);
   }
 }
 
@@ -75,17 +75,50 @@ TEST(TriangleSurfaceDistance, LargeTrianglesAreLookedAtInside)
   other->GetPoints() = plate->GetPoints();
   other->GetPoints().push_back({ 20.0f, 30.0f, 5.0f }); // a tent
   other->GetTriangles() = { { 0, 1, 3 }, { 1, 2, 3 }, { 2, 0, 3 } };
-  EXPECT_NEAR(ComputeTriangleSurfaceDistance(*plate, TriangleTree(*other), 2.0).maximum, 5.0, 0.5);
-  EXPECT_NEAR(ComputeTriangleSurfaceDistance(*other, TriangleTree(*plate), 2.0).maximum, 5.0, 1e-4);
+  EXPECT_NEAR(ComputeTriangleSurfaceDistance(*plate, TriangleTree(*other), { 2.0 }).GetMaximum(), 5.0, 0.5);
+  EXPECT_NEAR(ComputeTriangleSurfaceDistance(*other, TriangleTree(*plate), { 2.0 }).GetMaximum(), 5.0, 1e-4);
+}
+
+/** The distance from a plate to a roof over it rises from 0 to 5 mm over two slopes of 10 mm: uniformly distributed. */
+TEST(TriangleSurfaceDistance, PercentilesOfLinearDistancesAreExact)
+{
+  const auto roof = Surface::New();
+  roof->GetPoints() = { { 0, 0, 0 }, { 10, 0, 5 }, { 20, 0, 0 }, { 0, 30, 0 }, { 10, 30, 5 }, { 20, 30, 0 } };
+  roof->GetTriangles() = { { 0, 1, 3 }, { 1, 4, 3 }, { 1, 2, 4 }, { 2, 5, 4 } };
+  const auto plate = Surface::New();
+  plate->GetPoints() = { { -9, -9, 0 }, { 99, -9, 0 }, { -9, 99, 0 } };
+  plate->GetTriangles() = { { 0, 1, 2 } };
+  const auto distance = ComputeTriangleSurfaceDistance(*roof, TriangleTree(*plate));
+  for (const double percent : { 0.0, 10.0, 50.0, 95.0, 100.0 })
+  {
+    EXPECT_NEAR(distance.FindPercentile(percent), percent / 100.0 * 5.0, 1e-4) << percent;
+    EXPECT_NEAR(distance.FindAreaWithin(percent / 100.0 * 5.0), percent / 100.0 * distance.GetArea(), 1e-2) << percent;
+  }
+  EXPECT_NEAR(distance.GetMean(), 2.5, 1e-5);
+  EXPECT_EQ(distance.GetMaximum(), 5.0);
+  EXPECT_EQ(distance.GetFarthestPoint()[0], 10.0);
+}
+
+TEST(TriangleSurfaceDistance, SignsAreThoseOfTheWinding)
+{
+  const auto ball = MakeSphere(10.0, 5);
+  Append(*ball, *MakeSphere(5.0, 4), { 3.0f, 0.0f, 0.0f }); // inside the first: still inside
+  const auto points = Surface::New();
+  points->GetPoints() = { { 0, 0, 9 }, { 0, 0, 12 }, { 3, 0, 0 }, { -20, 0, 0 } };
+  const std::vector<float> found = ComputeTriangleSurfaceSignedDistances(*points, TriangleTree(*ball));
+  EXPECT_NEAR(found[0], -1.0f, 0.01f);
+  EXPECT_NEAR(found[1], 2.0f, 0.01f);
+  EXPECT_NEAR(found[2], -5.0f, 0.03f);
+  EXPECT_NEAR(found[3], 10.0f, 0.01f);
 }
 
 TEST(TriangleSurfaceDistance, EmptySurfaces)
 {
   const auto sphere = MakeSphere(10.0, 2);
   const auto empty = Surface::New();
-  EXPECT_EQ(ComputeTriangleSurfaceDistance(*empty, TriangleTree(*sphere)).places, 0u);
-  EXPECT_EQ(ComputeTriangleSurfaceDistance(*empty, TriangleTree(*sphere)).maximum, 0.0);
-  EXPECT_TRUE(std::isinf(ComputeTriangleSurfaceDistance(*sphere, TriangleTree(*empty)).maximum));
+  EXPECT_EQ(ComputeTriangleSurfaceDistance(*empty, TriangleTree(*sphere)).GetNumberOfParts(), 0u);
+  EXPECT_EQ(ComputeTriangleSurfaceDistance(*empty, TriangleTree(*sphere)).GetMaximum(), 0.0);
+  EXPECT_TRUE(std::isinf(ComputeTriangleSurfaceDistance(*sphere, TriangleTree(*empty)).GetMaximum()));
 }
 
 TEST(TriangleSurfaceDistance, IsTheSameForAnyNumberOfThreads)
@@ -97,7 +130,7 @@ TEST(TriangleSurfaceDistance, IsTheSameForAnyNumberOfThreads)
   for (const unsigned int threads : { 1u, 5u })
   {
     itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(threads);
-    means[threads == 1 ? 0 : 1] = ComputeTriangleSurfaceDistance(*one, TriangleTree(*two)).mean;
+    means[threads == 1 ? 0 : 1] = ComputeTriangleSurfaceDistance(*one, TriangleTree(*two)).GetMean();
   }
   itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(usual);
   EXPECT_EQ(means[0], means[1]);

@@ -3,6 +3,7 @@
 #include "detail/itkPositionArithmetic.h"
 #include "rhombicForEachBlock.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -11,15 +12,9 @@ namespace itk
 namespace
 {
 
-constexpr SizeValueType BlockSize = 1024;
-constexpr unsigned int MostParts = 64; // along a side
-
-double
-LongestSide(const CornersType & corners)
-{
-  return std::max(
-    { Distance(corners[0], corners[1]), Distance(corners[1], corners[2]), Distance(corners[2], corners[0]) });
-}
+constexpr std::size_t BlockSize = 1024;
+constexpr double Rounding = 1e-6;         // mm; smaller distances are 0
+constexpr unsigned int MostHalvings = 24; // a triangle has at most 2^24 parts
 
 double
 Area(const CornersType & corners)
@@ -27,20 +22,8 @@ Area(const CornersType & corners)
   return Length(AreaVector(corners)) / 2.0;
 }
 
-/** The position with barycentric coordinates 1 - u - v, u and v. */
-PositionType
-At(const CornersType & corners, double u, double v)
-{
-  PositionType position;
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    position[axis] = (1.0 - u - v) * corners[0][axis] + u * corners[1][axis] + v * corners[2][axis];
-  }
-  return position;
-}
-
-/** Distances of sample points that are mostly close to the sample points before: the triangle nearest to the last
- * sample point bounds the search. */
+/** Distances of points that are mostly close to the points before: the triangle nearest to the last point bounds the
+ * search. */
 class Distances
 {
 public:
@@ -48,7 +31,7 @@ public:
     : m_Other(other)
   {}
 
-  double
+  float
   Of(const PositionType & position)
   {
     double bound = std::numeric_limits<double>::infinity();
@@ -58,7 +41,8 @@ public:
     }
     const auto closest = m_Other.FindClosestPoint(position, bound);
     m_Nearest = closest.triangle != TriangleTree::None ? closest.triangle : m_Nearest;
-    return std::sqrt(closest.squaredDistance);
+    const double distance = std::sqrt(closest.squaredDistance);
+    return distance > Rounding ? static_cast<float>(distance) : 0.0f;
   }
 
 private:
@@ -66,73 +50,26 @@ private:
   std::uint32_t m_Nearest = TriangleTree::None;
 };
 
-/** A sample point: its distance in mm and its weight, an area in mm^2. */
-struct Place
+/** The share of a triangle's area on which a linear function is at most \a value.
+ * \param corners the function at the corners */
+double
+ShareWithin(std::array<double, 3> corners, double value)
 {
-  float distance;
-  float area;
-};
-
-/** Into how many parts each side of a triangle is divided. */
-unsigned int
-CountParts(const CornersType & corners, double spacing)
-{
-  return static_cast<unsigned int>(std::clamp(std::ceil(LongestSide(corners) / spacing), 1.0, double{ MostParts }));
-}
-
-/** Calls visit(centre) for each of parts^2 equal parts of a triangle. */
-template <typename TVisit>
-void
-ForEachPart(const CornersType & corners, unsigned int parts, const TVisit & visit)
-{
-  for (unsigned int row = 0; row < parts; ++row)
+  std::sort(corners.begin(), corners.end());
+  const auto [low, middle, high] = corners;
+  if (value < low)
   {
-    for (unsigned int column = 0; column + row < parts; ++column)
-    {
-      const auto centre = [&](double shift) {
-        const double u = (column + shift) / parts;
-        const double v = (row + shift) / parts;
-        return At(corners, u, v);
-      };
-      visit(centre(1.0 / 3.0));
-      if (column + row + 1 < parts)
-      {
-        visit(centre(2.0 / 3.0));
-      }
-    }
+    return 0.0;
   }
-}
-
-TriangleSurfaceDistance
-Summarize(std::vector<Place> places)
-{
-  TriangleSurfaceDistance result;
-  places.erase(std::remove_if(places.begin(), places.end(), [](const Place & place) { return !(place.area > 0.0f); }),
-               places.end());
-  result.places = places.size();
-  std::sort(places.begin(), places.end(), [](const Place & a, const Place & b) {
-    return a.distance != b.distance ? a.distance < b.distance : a.area < b.area;
-  });
-  double area = 0.0;
-  double sum = 0.0;
-  for (const Place & place : places)
+  if (value >= high)
   {
-    area += place.area;
-    sum += double{ place.area } * place.distance;
+    return 1.0;
   }
-  result.mean = area > 0.0 ? sum / area : 0.0;
-  double below = 0.0;
-  for (const Place & place : places)
+  if (value < middle)
   {
-    below += place.area;
-    result.percentile95 = place.distance;
-    if (below >= 0.95 * area)
-    {
-      break;
-    }
+    return (value - low) * (value - low) / ((middle - low) * (high - low));
   }
-  result.maximum = places.empty() ? 0.0 : places.back().distance;
-  return result;
+  return 1.0 - (high - value) * (high - value) / ((high - middle) * (high - low));
 }
 
 double
@@ -147,97 +84,276 @@ MeanSide(const TriangleSurface & surface)
   return sum / std::max(1.0, 3.0 * static_cast<double>(surface.GetNumberOfTriangles()));
 }
 
-/** Every \a step-th triangle of a surface, divided into parts. */
-struct ChosenTriangles
+/** The distance of each point that every \a step-th triangle uses, in mm; 0 for the others. */
+std::vector<float>
+MeasurePoints(const TriangleSurface & surface, const TriangleTree & other, std::size_t step)
 {
-  std::size_t step;
-  std::vector<std::uint64_t> firstPlace; ///< index of each triangle's first sample point, after the points; and the end
-  std::vector<float> pointAreas;         ///< weight of each point, an area in mm^2; 0 for points of no chosen triangle
-
-  std::size_t
-  GetNumberOfTriangles() const
+  std::vector<char> isUsed(surface.GetNumberOfPoints(), step == 1);
+  for (std::size_t id = 0; step > 1 && id < surface.GetNumberOfTriangles(); id += step)
   {
-    return firstPlace.size() - 1;
-  }
-};
-
-ChosenTriangles
-ChooseTriangles(const TriangleSurface & surface, double spacing, SizeValueType mostTriangles)
-{
-  const auto & triangles = surface.GetTriangles();
-  ChosenTriangles chosen;
-  chosen.step =
-    std::max<std::size_t>(1, triangles.size() / mostTriangles + (triangles.size() % mostTriangles != 0 ? 1 : 0));
-  chosen.firstPlace.assign(1, surface.GetNumberOfPoints());
-  chosen.firstPlace.reserve((triangles.size() + chosen.step - 1) / chosen.step + 1);
-  chosen.pointAreas.assign(surface.GetNumberOfPoints(), 0.0f);
-  for (std::size_t id = 0; id < triangles.size(); id += chosen.step)
-  {
-    const CornersType corners = CornersOf(surface, triangles[id]);
-    const double parts = CountParts(corners, spacing);
-    chosen.firstPlace.push_back(chosen.firstPlace.back() + static_cast<std::uint64_t>(parts * parts));
-    for (const std::uint32_t point : triangles[id])
+    for (const std::uint32_t point : surface.GetTriangles()[id])
     {
-      chosen.pointAreas[point] += static_cast<float>(Area(corners) / (12.0 * parts * parts));
+      isUsed[point] = 1;
     }
   }
-  return chosen;
-}
-
-void
-MeasurePoints(const TriangleSurface & surface,
-              const TriangleTree & other,
-              const ChosenTriangles & chosen,
-              std::vector<Place> & places)
-{
-  rhombic::ForEachBlock(surface.GetNumberOfPoints(), BlockSize, [&](std::size_t first, std::size_t last) {
+  std::vector<float> found(surface.GetNumberOfPoints());
+  rhombic::ForEachBlock(found.size(), BlockSize, [&](std::size_t first, std::size_t last) {
     Distances distances(other);
     for (std::size_t point = first; point < last; ++point)
     {
-      const float area = chosen.pointAreas[point];
-      const double distance = area > 0.0f ? distances.Of(ToPosition(surface.GetPoints()[point])) : 0.0;
-      places[point] = { static_cast<float>(distance), area };
+      if (isUsed[point] && IsFinite(surface.GetPoints()[point]))
+      {
+        found[point] = distances.Of(ToPosition(surface.GetPoints()[point]));
+      }
     }
   });
-}
-
-void
-MeasureCentres(const TriangleSurface & surface,
-               const TriangleTree & other,
-               const ChosenTriangles & chosen,
-               double spacing,
-               std::vector<Place> & places)
-{
-  rhombic::ForEachBlock(chosen.GetNumberOfTriangles(), BlockSize, [&](std::size_t first, std::size_t last) {
-    Distances distances(other);
-    for (std::size_t n = first; n < last; ++n)
-    {
-      const CornersType corners = CornersOf(surface, surface.GetTriangles()[n * chosen.step]);
-      const unsigned int parts = CountParts(corners, spacing);
-      const double numberOfParts = static_cast<double>(parts) * parts;
-      // The inner corners of parts are not sampled; their weight goes to the centres.
-      const double area = Area(corners) / numberOfParts * (1.0 - 0.25 / numberOfParts);
-      std::size_t place = chosen.firstPlace[n];
-      ForEachPart(corners, parts, [&](const PositionType & centre) {
-        places[place++] = { static_cast<float>(distances.Of(centre)), static_cast<float>(area) };
-      });
-    }
-  });
+  return found;
 }
 
 } // namespace
 
+float
+TriangleSurfaceDistance::Part::GetSmallest() const
+{
+  return std::min({ corners[0], corners[1], corners[2], centre });
+}
+
+float
+TriangleSurfaceDistance::Part::GetLargest() const
+{
+  return std::max({ corners[0], corners[1], corners[2], centre });
+}
+
+/** The centre divides the part into three triangles of equal area. */
+double
+TriangleSurfaceDistance::Part::FindAreaWithin(double distance) const
+{
+  return area / 3.0 *
+         (ShareWithin({ corners[0], corners[1], centre }, distance) +
+          ShareWithin({ corners[1], corners[2], centre }, distance) +
+          ShareWithin({ corners[2], corners[0], centre }, distance));
+}
+
+/** \class TriangleSurfaceDistance::Divider
+ * \brief Divides triangles of one block into parts, and finds the point that is farthest away. */
+class TriangleSurfaceDistance::Divider
+{
+public:
+  Divider(const TriangleTree & other, const TriangleSurfaceDistanceSettings & settings)
+    : m_Distances(other)
+    , m_Settings(settings)
+  {}
+
+  /** \param atCorners distances of the corners */
+  void
+  AddTriangle(const CornersType & corners, const std::array<float, 3> & atCorners)
+  {
+    for (unsigned int corner = 0; corner < 3; ++corner)
+    {
+      this->Improve(corners[corner], atCorners[corner]);
+    }
+    this->Divide(corners, atCorners, MostHalvings);
+  }
+
+  std::vector<Part> parts;
+  double area = 0.0;
+  double integral = 0.0; ///< of the distance, in mm^3
+  double maximum = -1.0;
+  PositionType farthestPoint{};
+
+private:
+  void
+  Improve(const PositionType & position, double distance)
+  {
+    if (distance > maximum)
+    {
+      maximum = distance;
+      farthestPoint = position;
+    }
+  }
+
+  float
+  Measure(const PositionType & position)
+  {
+    const float distance = m_Distances.Of(position);
+    this->Improve(position, distance);
+    return distance;
+  }
+
+  /** Halves a triangle across its longest side, as long as the settings ask for it. */
+  void
+  Divide(const CornersType & corners, const std::array<float, 3> & distances, unsigned int halvings)
+  {
+    std::array<double, 3> sides; // opposite to each corner
+    for (unsigned int corner = 0; corner < 3; ++corner)
+    {
+      sides[corner] = Distance(corners[(corner + 1) % 3], corners[(corner + 2) % 3]);
+    }
+    const auto apex = static_cast<unsigned int>(std::max_element(sides.begin(), sides.end()) - sides.begin());
+    const bool isLong = sides[apex] > m_Settings.longestSide;
+    float centre = 0.0f;
+    bool isBent = false;
+    if (!isLong || halvings == 0)
+    {
+      centre = this->Measure(Scaled(Add(Add(corners[0], corners[1]), corners[2]), 1.0 / 3.0));
+      isBent = sides[apex] > m_Settings.shortestSide &&
+               std::abs(centre - (distances[0] + distances[1] + distances[2]) / 3.0f) > m_Settings.mostBent;
+    }
+    if (halvings == 0 || !(isLong || isBent))
+    {
+      this->AddPart(corners, distances, centre);
+      return;
+    }
+    const unsigned int left = (apex + 1) % 3;
+    const unsigned int right = (apex + 2) % 3;
+    const PositionType middle = Mix(corners[left], corners[right], 0.5);
+    const float atMiddle = this->Measure(middle);
+    this->Divide(
+      { corners[apex], corners[left], middle }, { distances[apex], distances[left], atMiddle }, halvings - 1);
+    this->Divide(
+      { corners[apex], middle, corners[right] }, { distances[apex], atMiddle, distances[right] }, halvings - 1);
+  }
+
+  void
+  AddPart(const CornersType & corners, const std::array<float, 3> & distances, float centre)
+  {
+    const auto partArea = static_cast<float>(Area(corners));
+    if (partArea > 0.0f)
+    {
+      parts.push_back({ distances, centre, partArea });
+      area += partArea;
+      integral += partArea * ((distances[0] + distances[1] + distances[2]) / 12.0 + 0.75 * centre);
+    }
+  }
+
+  Distances m_Distances;
+  const TriangleSurfaceDistanceSettings & m_Settings;
+};
+
+double
+TriangleSurfaceDistance::FindPercentile(double percent) const
+{
+  if (m_Parts.empty())
+  {
+    return m_Maximum;
+  }
+  // The distance lies between low and high. Undecided parts have distances on both sides of one of them.
+  double low = 0.0;
+  double high = m_Maximum;
+  double areaBelow = 0.0; // of the parts that are nearer than low
+  const double wanted = percent / 100.0 * m_Area;
+  std::vector<std::vector<Part>> undecided = m_Parts;
+  std::vector<double> sums(undecided.size());
+  while (high - low > std::max(1e-6 * high, Rounding))
+  {
+    const double middle = (low + high) / 2.0;
+    rhombic::ForEachInBlocks(undecided.size(), 1, [&](std::size_t block) {
+      sums[block] = 0.0;
+      for (const Part & part : undecided[block])
+      {
+        sums[block] += part.FindAreaWithin(middle);
+      }
+    });
+    double area = areaBelow;
+    for (const double sum : sums)
+    {
+      area += sum;
+    }
+    const bool isFarther = area < wanted;
+    (isFarther ? low : high) = middle;
+    rhombic::ForEachInBlocks(undecided.size(), 1, [&](std::size_t block) {
+      const auto isDecided = [&](const Part & part) {
+        return isFarther ? part.GetLargest() <= low : part.GetSmallest() > high;
+      };
+      std::vector<Part> & parts = undecided[block];
+      const auto kept = std::partition(parts.begin(), parts.end(), [&](const Part & part) { return !isDecided(part); });
+      sums[block] = 0.0;
+      std::for_each(kept, parts.end(), [&](const Part & part) { sums[block] += isFarther ? part.area : 0.0; });
+      parts.erase(kept, parts.end());
+    });
+    for (const double sum : sums)
+    {
+      areaBelow += sum;
+    }
+  }
+  return high;
+}
+
+double
+TriangleSurfaceDistance::FindAreaWithin(double distance) const
+{
+  double area = 0.0;
+  for (const auto & parts : m_Parts)
+  {
+    double areaOfBlock = 0.0;
+    for (const Part & part : parts)
+    {
+      areaOfBlock += part.GetLargest() <= distance ? part.area : part.FindAreaWithin(distance);
+    }
+    area += areaOfBlock;
+  }
+  return area;
+}
+
+SizeValueType
+TriangleSurfaceDistance::GetNumberOfParts() const
+{
+  SizeValueType count = 0;
+  for (const auto & parts : m_Parts)
+  {
+    count += parts.size();
+  }
+  return count;
+}
+
 TriangleSurfaceDistance
 ComputeTriangleSurfaceDistance(const TriangleSurface & surface,
                                const TriangleTree & other,
-                               double spacing,
-                               SizeValueType mostTriangles)
+                               const TriangleSurfaceDistanceSettings & settings)
 {
-  const ChosenTriangles chosen = ChooseTriangles(surface, spacing, mostTriangles);
-  std::vector<Place> places(chosen.firstPlace.back());
-  MeasurePoints(surface, other, chosen, places);
-  MeasureCentres(surface, other, chosen, spacing, places);
-  return Summarize(std::move(places));
+  surface.VerifyTriangles();
+  TriangleSurfaceDistance result;
+  const std::size_t triangles = surface.GetNumberOfTriangles();
+  if (triangles == 0)
+  {
+    return result;
+  }
+  if (other.GetNumberOfPlacedTriangles() == 0)
+  {
+    result.m_Mean = result.m_Maximum = std::numeric_limits<double>::infinity();
+    return result;
+  }
+  const std::size_t step = triangles / settings.mostTriangles + (triangles % settings.mostTriangles != 0 ? 1 : 0);
+  const std::vector<float> atPoints = MeasurePoints(surface, other, step);
+  const std::size_t chosen = (triangles + step - 1) / step;
+  std::vector<TriangleSurfaceDistance::Divider> blocks((chosen + BlockSize - 1) / BlockSize, { other, settings });
+  rhombic::ForEachBlock(chosen, BlockSize, [&](std::size_t first, std::size_t last) {
+    auto & block = blocks[first / BlockSize];
+    for (std::size_t n = first; n < last; ++n)
+    {
+      const auto & triangle = surface.GetTriangles()[n * step];
+      const auto & points = surface.GetPoints();
+      if (IsFinite(points[triangle[0]]) && IsFinite(points[triangle[1]]) && IsFinite(points[triangle[2]]))
+      {
+        block.AddTriangle(CornersOf(surface, triangle),
+                          { atPoints[triangle[0]], atPoints[triangle[1]], atPoints[triangle[2]] });
+      }
+    }
+  });
+  double integral = 0.0;
+  for (auto & block : blocks)
+  {
+    result.m_Area += block.area;
+    integral += block.integral;
+    if (block.maximum > result.m_Maximum)
+    {
+      result.m_Maximum = block.maximum;
+      result.m_FarthestPoint = block.farthestPoint;
+    }
+    result.m_Parts.push_back(std::move(block.parts));
+  }
+  result.m_Mean = result.m_Area > 0.0 ? integral / result.m_Area : 0.0;
+  return result;
 }
 
 TriangleSurfaceTwoDistances
@@ -245,9 +361,35 @@ ComputeTriangleSurfaceDistances(const TriangleSurface & first,
                                 const TriangleSurface & second,
                                 SizeValueType mostTriangles)
 {
-  const double spacing = 2.0 * std::min(MeanSide(first), MeanSide(second));
-  return { ComputeTriangleSurfaceDistance(first, TriangleTree(second), spacing, mostTriangles),
-           ComputeTriangleSurfaceDistance(second, TriangleTree(first), spacing, mostTriangles) };
+  TriangleSurfaceDistanceSettings settings;
+  settings.longestSide = 2.0 * std::min(MeanSide(first), MeanSide(second));
+  settings.mostTriangles = mostTriangles;
+  return { ComputeTriangleSurfaceDistance(first, TriangleTree(second), settings),
+           ComputeTriangleSurfaceDistance(second, TriangleTree(first), settings) };
+}
+
+bool
+IsInsideTriangleSurface(const TriangleTree & tree, const PositionType & position)
+{
+  int windings = 0;
+  tree.VisitCrossings(ToPoint(position), [&windings](std::uint32_t, int turns) { windings += turns; });
+  return windings > 0;
+}
+
+std::vector<float>
+ComputeTriangleSurfaceSignedDistances(const TriangleSurface & surface, const TriangleTree & other)
+{
+  std::vector<float> found(surface.GetNumberOfPoints());
+  rhombic::ForEachBlock(found.size(), BlockSize, [&](std::size_t first, std::size_t last) {
+    Distances distances(other);
+    for (std::size_t point = first; point < last; ++point)
+    {
+      const PositionType position = ToPosition(surface.GetPoints()[point]);
+      const float distance = distances.Of(position);
+      found[point] = IsInsideTriangleSurface(other, position) ? -distance : distance;
+    }
+  });
+  return found;
 }
 
 } // namespace itk

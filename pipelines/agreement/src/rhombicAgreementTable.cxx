@@ -1,0 +1,271 @@
+#include "rhombicAgreementTable.h"
+
+#include "rhombicFailure.h"
+#include "rhombicMeasureTable.h"
+#include "rhombicWording.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace rhombic
+{
+namespace
+{
+
+/** A column of the table. */
+struct Column
+{
+  const char * name; ///< in snake_case, with the unit at its end
+  Report (*find)(const LabelAgreement & label);
+  bool isAveraged = false; ///< over all labels
+};
+
+Report
+NumberOrNull(std::optional<double> number)
+{
+  return number && std::isfinite(*number) ? Report(*number) : Report();
+}
+
+/** A measure of the surfaces of both segmentations. */
+template <double itk::TriangleSurfaceAgreement::*measure>
+Report
+FindMeasure(const LabelAgreement & label)
+{
+  return label.status == AgreementStatus::Compared ? NumberOrNull(label.surfaces.*measure) : Report();
+}
+
+template <std::size_t axis>
+Report
+FindWorst(const LabelAgreement & label)
+{
+  return label.status == AgreementStatus::Compared ? NumberOrNull(label.surfaces.worst[axis]) : Report();
+}
+
+std::string
+NameStatus(AgreementStatus status)
+{
+  switch (status)
+  {
+    case AgreementStatus::MissingInFirst:
+      return "missing-in-A";
+    case AgreementStatus::MissingInSecond:
+      return "missing-in-B";
+    case AgreementStatus::BothEmpty:
+      return "both-empty";
+    case AgreementStatus::Compared:
+      break;
+  }
+  return "compared";
+}
+
+std::string
+NameWorstSide(const LabelAgreement & label)
+{
+  return label.surfaces.worstSide == itk::TriangleSurfaceAgreement::Side::First ? "A" : "B";
+}
+
+double
+FindDifference(const LabelAgreement & label)
+{
+  return label.second.millilitres - label.first.millilitres;
+}
+
+const Column Columns[] = {
+  { "label", [](const LabelAgreement & label) { return Report(label.label); } },
+  { "status", [](const LabelAgreement & label) { return Report(NameStatus(label.status)); } },
+  { "volume_a_ml", [](const LabelAgreement & label) { return NumberOrNull(label.first.millilitres); } },
+  { "volume_b_ml", [](const LabelAgreement & label) { return NumberOrNull(label.second.millilitres); } },
+  { "volume_difference_ml", [](const LabelAgreement & label) { return NumberOrNull(FindDifference(label)); } },
+  { "volume_difference_percent",
+    [](const LabelAgreement & label) {
+      return label.first.millilitres > 0.0 ? NumberOrNull(100.0 * FindDifference(label) / label.first.millilitres)
+                                           : Report();
+    } },
+  { "voxel_volume_a_ml", [](const LabelAgreement & label) { return NumberOrNull(label.first.voxelMillilitres); } },
+  { "voxel_volume_b_ml", [](const LabelAgreement & label) { return NumberOrNull(label.second.voxelMillilitres); } },
+  { "dice", [](const LabelAgreement & label) { return NumberOrNull(label.dice); }, true },
+  { "iou", [](const LabelAgreement & label) { return NumberOrNull(label.iou); }, true },
+  { "hd_mm", FindMeasure<&itk::TriangleSurfaceAgreement::hausdorff>, true },
+  { "hd95_mm", FindMeasure<&itk::TriangleSurfaceAgreement::hausdorff95>, true },
+  { "masd_mm", FindMeasure<&itk::TriangleSurfaceAgreement::meanOfMeans>, true },
+  { "assd_mm", FindMeasure<&itk::TriangleSurfaceAgreement::pooledMean>, true },
+  { "nsd",
+    [](const LabelAgreement & label) {
+      return label.status == AgreementStatus::BothEmpty ? Report() : NumberOrNull(label.surfaces.normalizedDice);
+    },
+    true },
+  { "tolerance_mm", [](const LabelAgreement & label) { return NumberOrNull(label.tolerance); } },
+  { "noise_floor_mm", [](const LabelAgreement & label) { return NumberOrNull(label.noiseFloor); } },
+  { "centroid_shift_mm", [](const LabelAgreement & label) { return NumberOrNull(label.centroidShift); }, true },
+  { "worst_x_mm", FindWorst<0> },
+  { "worst_y_mm", FindWorst<1> },
+  { "worst_z_mm", FindWorst<2> },
+  { "worst_side",
+    [](const LabelAgreement & label) {
+      return label.status == AgreementStatus::Compared ? Report(NameWorstSide(label)) : Report();
+    } },
+};
+
+/** "7 compared, 1 missing-in-A, 2 missing-in-B". */
+std::string
+CountStatuses(const std::vector<LabelAgreement> & labels)
+{
+  std::string text;
+  using Status = AgreementStatus;
+  for (const Status status : { Status::Compared, Status::MissingInFirst, Status::MissingInSecond, Status::BothEmpty })
+  {
+    const auto count = std::count_if(
+      labels.begin(), labels.end(), [status](const LabelAgreement & label) { return label.status == status; });
+    if (count > 0 || status == Status::Compared)
+    {
+      text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + NameStatus(status);
+    }
+  }
+  return text;
+}
+
+Report
+ReportMeans(const std::vector<LabelAgreement> & labels)
+{
+  Report row;
+  for (const Column & column : Columns)
+  {
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (const LabelAgreement & label : labels)
+    {
+      const Report value = column.isAveraged ? column.find(label) : Report();
+      sum += value.is_null() ? 0.0 : value.get<double>();
+      count += value.is_null() ? 0 : 1;
+    }
+    row[column.name] = count > 0 ? Report(sum / static_cast<double>(count)) : Report();
+  }
+  row["label"] = "mean";
+  row["status"] = CountStatuses(labels);
+  return row;
+}
+
+} // namespace
+
+Report
+ReportAgreement(const std::vector<LabelAgreement> & labels)
+{
+  Report rows = Report::array();
+  for (const LabelAgreement & label : labels)
+  {
+    Report row;
+    for (const Column & column : Columns)
+    {
+      row[column.name] = column.find(label);
+    }
+    rows.push_back(row);
+  }
+  rows.push_back(ReportMeans(labels));
+  return rows;
+}
+
+std::string
+WriteAgreement(const Report & rows, const std::string & extension)
+{
+  if (extension == ".json")
+  {
+    return ToJson(rows) + '\n';
+  }
+  const bool isCSV = extension == ".csv";
+  const char * const between = isCSV ? "," : "\t";
+  const char * const end = isCSV ? "\r\n" : "\n";
+  std::ostringstream text;
+  for (const Column & column : Columns)
+  {
+    text << (&column == Columns ? "" : between) << column.name;
+  }
+  text << end;
+  for (const Report & row : rows)
+  {
+    for (const Column & column : Columns)
+    {
+      const Report & value = row[column.name];
+      text << (&column == Columns ? "" : between);
+      if (isCSV && value.is_string())
+      {
+        text << std::quoted(ToField(value), '"', '"');
+      }
+      else
+      {
+        text << ToField(value);
+      }
+    }
+    text << end;
+  }
+  return text.str();
+}
+
+void
+CheckAgreementPath(const std::filesystem::path & path)
+{
+  const std::string extension = path.extension().string();
+  if (extension != ".csv" && extension != ".tsv" && extension != ".json")
+  {
+    throw Failure(FailureKind::Usage,
+                  "Cannot write the table to " + path.string() + ": use the extension .csv, .tsv or .json.");
+  }
+}
+
+std::string
+SummarizeAgreement(const LabelAgreement & label)
+{
+  if (label.status != AgreementStatus::Compared)
+  {
+    return label.label + ": " + NameStatus(label.status);
+  }
+  const auto & surfaces = label.surfaces;
+  return label.label + ": " + (label.dice ? "Dice " + FormatFixed(*label.dice, 3) + ", " : "") + "HD95 " +
+         FormatFixed(surfaces.hausdorff95, 2) + " mm, HD " + FormatFixed(surfaces.hausdorff, 2) + " mm, MASD " +
+         FormatFixed(surfaces.meanOfMeans, 2) + " mm, NSD " + FormatFixed(surfaces.normalizedDice, 3) + " at " +
+         FormatNumber(label.tolerance) + " mm" +
+         (label.noiseFloor && surfaces.meanOfMeans < *label.noiseFloor
+            ? "; below the noise floor of " + FormatFixed(*label.noiseFloor, 2) + " mm"
+            : "");
+}
+
+std::string
+DescribeAgreement(const std::vector<LabelAgreement> & labels)
+{
+  struct Shown
+  {
+    const char * column;
+    const char * heading;
+    int decimals;
+  };
+  constexpr Shown shown[] = { { "volume_a_ml", "A ml", 2 }, { "volume_b_ml", "B ml", 2 }, { "dice", "Dice", 3 },
+                              { "hd95_mm", "HD95 mm", 2 },  { "hd_mm", "HD mm", 2 },      { "masd_mm", "MASD mm", 2 },
+                              { "nsd", "NSD", 3 } };
+  const Report rows = ReportAgreement(labels);
+  std::size_t width = 5;
+  for (const Report & row : rows)
+  {
+    width = std::max(width, row["label"].get<std::string>().size());
+  }
+  std::ostringstream text;
+  text << std::left << std::setw(static_cast<int>(width)) << "label" << std::right;
+  for (const Shown & column : shown)
+  {
+    text << std::setw(10) << column.heading;
+  }
+  text << "  status\n";
+  for (const Report & row : rows)
+  {
+    text << std::left << std::setw(static_cast<int>(width)) << row["label"].get<std::string>() << std::right;
+    for (const Shown & column : shown)
+    {
+      const Report & value = row[column.column];
+      text << std::setw(10) << (value.is_null() ? "" : FormatFixed(value.get<double>(), column.decimals));
+    }
+    text << "  " << row["status"].get<std::string>() << '\n';
+  }
+  return text.str();
+}
+
+} // namespace rhombic

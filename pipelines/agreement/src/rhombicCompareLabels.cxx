@@ -1,0 +1,487 @@
+#include "rhombicCompareLabels.h"
+
+#include "rhombicAffineFile.h"
+#include "rhombicAgreementTable.h"
+#include "rhombicComparedSide.h"
+#include "rhombicFailure.h"
+#include "rhombicSceneRules.h"
+#include "rhombicSurfaceMeasures.h"
+#include "rhombicVoxelSurface.h"
+#include "rhombicWording.h"
+
+#include "itkTriangleSurfaceMeasures.h"
+
+#include <vnl/vnl_det.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace fs = std::filesystem;
+
+namespace rhombic
+{
+namespace
+{
+
+using PointType = itk::Point<double, 3>;
+using SurfacePointer = itk::TriangleSurface::ConstPointer;
+
+/** The maps between the two spaces; null for one space. */
+struct SpaceMaps
+{
+  AffineMap::Pointer toSecond;
+  AffineMap::Pointer toFirst;
+
+  PointType
+  ToFirst(const PointType & point) const
+  {
+    return toFirst != nullptr ? toFirst->TransformPoint(point) : point;
+  }
+};
+
+SpaceMaps
+ReadSpaceMaps(const CompareLabelsSettings & settings)
+{
+  SpaceMaps maps;
+  if (!settings.transform.empty())
+  {
+    const AffineMap::Pointer read = ReadAffineMap(settings.transform);
+    const AffineMap::Pointer inverse = InverseOf(*read);
+    maps.toSecond = settings.isTransformInverted ? inverse : read;
+    maps.toFirst = settings.isTransformInverted ? read : inverse;
+  }
+  return maps;
+}
+
+/** The box around points, along the patient's axes. */
+std::pair<PointType, PointType>
+FindBox(const std::vector<PointType> & points)
+{
+  std::pair<PointType, PointType> box{ points.front(), points.front() };
+  for (const PointType & point : points)
+  {
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      box.first[axis] = std::min(box.first[axis], point[axis]);
+      box.second[axis] = std::max(box.second[axis], point[axis]);
+    }
+  }
+  return box;
+}
+
+/** Throws Failure(Geometry) for segmentations whose boxes lie apart. */
+void
+RequireOneSpace(const ComparedSide & first, const ComparedSide & second, const SpaceMaps & maps)
+{
+  const std::vector<PointType> corners = FindCorners(first);
+  std::vector<PointType> others = FindCorners(second);
+  if (corners.empty() || others.empty())
+  {
+    return;
+  }
+  std::transform(others.begin(), others.end(), others.begin(), [&](const auto & point) { return maps.ToFirst(point); });
+  const auto [low, high] = FindBox(corners);
+  const auto [otherLow, otherHigh] = FindBox(others);
+  double squared = 0.0;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    const double apart = std::max({ 0.0, otherLow[axis] - high[axis], low[axis] - otherHigh[axis] });
+    squared += apart * apart;
+  }
+  if (squared > 0.0)
+  {
+    throw Failure(FailureKind::Geometry,
+                  first.file + " and " + second.file + " do not lie in one space: their boxes are " +
+                    FormatNumber(std::sqrt(squared), 4) +
+                    " mm apart; check that both are of one patient and one scan, or name the transform of their "
+                    "registration with --transform.");
+  }
+}
+
+/** Says by how much two grids of one size differ, where they do. */
+void
+NoteGrids(const ComparedSide & first, const ComparedSide & second, const SpaceMaps & maps, const Events & events)
+{
+  if (!first.map || !second.map || maps.toFirst != nullptr ||
+      GeometryOf(first.map->scan.image).GetLargestPossibleRegion().GetSize() !=
+        GeometryOf(second.map->scan.image).GetLargestPossibleRegion().GetSize())
+  {
+    return;
+  }
+  constexpr double tolerance = 0.01; // mm
+  const std::vector<PointType> corners = FindCorners(first);
+  const std::vector<PointType> others = FindCorners(second);
+  double farthest = 0.0;
+  for (std::size_t n = 0; n < corners.size(); ++n)
+  {
+    farthest = std::max(farthest, corners[n].EuclideanDistanceTo(others[n]));
+  }
+  if (farthest > 0.0)
+  {
+    events.Note("the grids of A and B are of one size and up to " + FormatNumber(farthest, 2) + " mm apart" +
+                (farthest <= tolerance ? ", within the tolerance of " + FormatNumber(tolerance) + " mm for one grid"
+                                       : "; each keeps its place"));
+  }
+}
+
+/** Centroids of pairs of labels, B's in A's space. */
+using Centroids = std::vector<std::pair<PointType, PointType>>;
+
+constexpr double NoticeableShift = 10.0; // mm
+
+/** The words of a doubt that all of B's labels lie beside A's, all in one direction; else empty. */
+std::string
+FindShift(const Centroids & centroids)
+{
+  constexpr double mostSpread = 0.2; // of the shift
+  itk::Vector<double, 3> mean(0.0);
+  for (const auto & [one, other] : centroids)
+  {
+    mean += (other - one) / static_cast<double>(centroids.size());
+  }
+  double spread = 0.0;
+  for (const auto & [one, other] : centroids)
+  {
+    spread += (other - one - mean).GetNorm() / static_cast<double>(centroids.size());
+  }
+  return mean.GetNorm() > NoticeableShift && spread < mostSpread * mean.GetNorm()
+           ? "the labels of B lie " + FormatNumber(mean.GetNorm(), 3) +
+               " mm beside those of A, all in one direction; check that both are in one space"
+           : "";
+}
+
+/** The words of a doubt that B is mirrored: labels fit much better after B's are mirrored about the middle of their
+ * box; else empty. */
+std::string
+FindMirroring(const Centroids & centroids)
+{
+  constexpr double muchBetter = 4.0; // factor of the squared distances
+  std::vector<PointType> seconds;
+  std::transform(
+    centroids.begin(), centroids.end(), std::back_inserter(seconds), [](const auto & pair) { return pair.second; });
+  const auto [low, high] = FindBox(seconds);
+  constexpr const char * names[] = { "left to right", "front to back", "head to feet" };
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    double asIs = 0.0;
+    double mirrored = 0.0;
+    for (const auto & [one, other] : centroids)
+    {
+      PointType turned = other;
+      turned[axis] = low[axis] + high[axis] - other[axis];
+      asIs += one.SquaredEuclideanDistanceTo(other);
+      mirrored += one.SquaredEuclideanDistanceTo(turned);
+    }
+    if (asIs > static_cast<double>(centroids.size()) * NoticeableShift * NoticeableShift &&
+        asIs > muchBetter * mirrored)
+    {
+      return std::string("the labels of B fit those of A better if B is mirrored from ") + names[axis] +
+             "; check that neither map was mirrored on its way";
+    }
+  }
+  return "";
+}
+
+/** What speaks against two maps being in one space, from the places of at least three pairs of labels; else empty. */
+std::string
+FindDoubt(const ComparedSide & first,
+          const ComparedSide & second,
+          const std::vector<LabelPair> & pairs,
+          const SpaceMaps & maps)
+{
+  constexpr std::size_t fewest = 3;
+  Centroids centroids;
+  for (const LabelPair & pair : pairs)
+  {
+    if (pair.first && pair.second && first.map && second.map)
+    {
+      centroids.emplace_back(first.moments.at(first.labels[*pair.first].value).centroid,
+                             maps.ToFirst(second.moments.at(second.labels[*pair.second].value).centroid));
+    }
+  }
+  if (centroids.size() < fewest)
+  {
+    return "";
+  }
+  const std::string mirroring = FindMirroring(centroids);
+  return mirroring.empty() ? FindShift(centroids) : mirroring;
+}
+
+/** A surface of B in A's space. */
+SurfacePointer
+BringToFirst(const SurfacePointer & surface, const SpaceMaps & maps)
+{
+  if (maps.toFirst == nullptr)
+  {
+    return surface;
+  }
+  const auto moved = itk::TriangleSurface::New();
+  moved->Graft(surface);
+  moved->GetNormals().clear();
+  for (auto & point : moved->GetPoints())
+  {
+    const PointType position = maps.toFirst->TransformPoint(PointType(point.data()));
+    point = { static_cast<float>(position[0]), static_cast<float>(position[1]), static_cast<float>(position[2]) };
+  }
+  if (vnl_det(maps.toFirst->GetMatrix().GetVnlMatrix()) < 0.0)
+  {
+    for (auto & triangle : moved->GetTriangles())
+    {
+      std::swap(triangle[1], triangle[2]);
+    }
+  }
+  return moved;
+}
+
+std::vector<std::size_t>
+ChosenOf(const std::vector<LabelPair> & pairs, std::optional<std::size_t> LabelPair::*side)
+{
+  std::vector<std::size_t> chosen;
+  for (const LabelPair & pair : pairs)
+  {
+    if (pair.*side)
+    {
+      chosen.push_back(*(pair.*side));
+    }
+  }
+  return chosen;
+}
+
+double
+FindTolerance(const std::vector<LabelTolerance> & tolerances, const std::string & label)
+{
+  const auto fits = [&label](const LabelTolerance & tolerance) { return FitsPattern(tolerance.pattern, label); };
+  const auto found = std::find_if(tolerances.rbegin(), tolerances.rend(), fits);
+  if (found == tolerances.rend())
+  {
+    throw Failure(FailureKind::Usage,
+                  "The table of tolerances has none for " + label + "; add a line for it, or one for *.");
+  }
+  return found->millimetres;
+}
+
+/** Mean distances in mm from the surfaces of a label map to those of their voxels, by the labels' numbers. */
+std::vector<std::optional<double>>
+FindNoiseFloors(const ComparedSide & side)
+{
+  constexpr itk::SizeValueType measured = 2000; // triangles
+  std::vector<std::optional<double>> floors(side.labels.size());
+  for (std::size_t label = 0; label < side.surfaces.size() && side.map; ++label)
+  {
+    const auto moments = side.moments.find(side.labels[label].value);
+    if (side.surfaces[label] == nullptr || moments == side.moments.end())
+    {
+      continue;
+    }
+    const itk::TriangleTree voxels(
+      *ExtractVoxelSurface(side.map->scan, side.labels[label].value, moments->second.region));
+    itk::TriangleSurfaceDistanceSettings settings;
+    settings.mostTriangles = measured;
+    floors[label] = ComputeTriangleSurfaceDistance(*side.surfaces[label], voxels, settings).GetMean();
+  }
+  return floors;
+}
+
+/** Measures of the surface and the voxels of a label. */
+ComparedVolume
+MeasureVolume(const ComparedSide & side, const std::optional<std::size_t> & label)
+{
+  ComparedVolume volume;
+  if (label)
+  {
+    volume.millilitres = ComputeTriangleSurfaceVolume(*side.surfaces[*label]) / CubicMillimetresPerMl;
+  }
+  if (side.map)
+  {
+    const auto moments = label ? side.moments.find(side.labels[*label].value) : side.moments.end();
+    volume.voxelMillilitres = moments != side.moments.end() ? moments->second.volume / CubicMillimetresPerMl : 0.0;
+  }
+  return volume;
+}
+
+/** The centroid of a label's voxels, or of the solid that the surface bounds. */
+PointType
+FindCentroid(const ComparedSide & side, std::size_t label)
+{
+  const auto moments = side.moments.find(side.labels[label].value);
+  if (moments != side.moments.end())
+  {
+    return moments->second.centroid;
+  }
+  return PointType(MeasureSurface(*side.surfaces[label]).centroid.data());
+}
+
+/** \class Comparison
+ * \brief Two segmentations and their pairs of labels, compared one by one. */
+class Comparison
+{
+public:
+  Comparison(const CompareLabelsSettings & settings, const Events & events)
+    : m_Settings(settings)
+    , m_Events(events)
+    , m_Maps(ReadSpaceMaps(settings))
+    , m_First(LoadSide(settings, false, events))
+    , m_Second(LoadSide(settings, true, events))
+  {
+    RequireOneSpace(m_First, m_Second, m_Maps);
+    NoteGrids(m_First, m_Second, m_Maps, events);
+    const bool areSingle = m_First.isSingle && m_Second.isSingle;
+    m_Pairs = PairLabels(m_First.labels,
+                         m_Second.labels,
+                         { settings.pairs, settings.pairsByValue, areSingle, settings.only, settings.hidden });
+    this->NotePairing();
+  }
+
+  std::vector<LabelAgreement>
+  Run()
+  {
+    this->CompareVoxels();
+    ExtractSide(m_Settings, ChosenOf(m_Pairs, &LabelPair::first), m_Events, m_First);
+    std::vector<std::optional<double>> noise(m_First.labels.size());
+    if (m_Settings.kind == ComparedKind::Labels && !m_Settings.takesVoxelSurfaces)
+    {
+      noise = FindNoiseFloors(m_First);
+    }
+    DropMap(m_First);
+    ExtractSide(m_Settings, ChosenOf(m_Pairs, &LabelPair::second), m_Events, m_Second);
+    DropMap(m_Second);
+    std::vector<LabelAgreement> agreements;
+    for (std::size_t n = 0; n < m_Pairs.size(); ++n)
+    {
+      m_Events.Progress("comparing", static_cast<double>(n) / static_cast<double>(m_Pairs.size()));
+      const LabelPair & pair = m_Pairs[n];
+      agreements.push_back(this->Compare(pair));
+      agreements.back().noiseFloor = pair.first ? noise[*pair.first] : std::nullopt;
+      m_Events.Note(SummarizeAgreement(agreements.back()));
+    }
+    if (agreements.empty()) // both hold background only
+    {
+      LabelAgreement & none = agreements.emplace_back();
+      none.label = "all labels";
+      none.status = AgreementStatus::BothEmpty;
+      none.dice = none.iou = 1.0;
+    }
+    m_Events.Progress("comparing", 1.0);
+    return agreements;
+  }
+
+private:
+  /** Frees the voxels; what is needed of them is known. */
+  static void
+  DropMap(ComparedSide & side)
+  {
+    if (side.map)
+    {
+      side.map->scan = WithoutVoxels(side.map->scan);
+    }
+  }
+
+  void
+  NotePairing() const
+  {
+    const auto isNamed = [](const ComparedLabel & label) { return label.isNamed; };
+    const bool areNamed = std::any_of(m_First.labels.begin(), m_First.labels.end(), isNamed);
+    m_Events.Note(m_First.isSingle && m_Second.isSingle  ? "A and B hold one label each, which are compared"
+                  : m_Settings.pairsByValue || !areNamed ? "labels are paired by value"
+                                                         : "labels are paired by name");
+    const std::string doubt = FindDoubt(m_First, m_Second, m_Pairs, m_Maps);
+    if (!doubt.empty())
+    {
+      m_Events.Note("warning: " + doubt);
+    }
+  }
+
+  void
+  CompareVoxels()
+  {
+    if (m_First.map && m_Second.map)
+    {
+      m_Events.Progress("comparing voxels", 0.0);
+      m_Overlap = ComputeLabelOverlap(m_First.map->scan, m_Second.map->scan, m_Maps.toSecond);
+    }
+  }
+
+  LabelAgreement
+  Compare(const LabelPair & pair) const
+  {
+    LabelAgreement agreement;
+    agreement.label = pair.name;
+    agreement.tolerance = FindTolerance(m_Settings.tolerances, pair.name);
+    agreement.first = MeasureVolume(m_First, pair.first);
+    agreement.second = MeasureVolume(m_Second, pair.second);
+    if (!pair.first || !pair.second)
+    {
+      agreement.status = pair.first ? AgreementStatus::MissingInSecond : AgreementStatus::MissingInFirst;
+      agreement.dice = agreement.iou = 0.0;
+      return agreement;
+    }
+    const SurfacePointer second = BringToFirst(m_Second.surfaces[*pair.second], m_Maps);
+    agreement.surfaces = ComputeTriangleSurfaceAgreement(*m_First.surfaces[*pair.first], *second, agreement.tolerance);
+    if (m_Overlap)
+    {
+      const int inFirst = m_First.labels[*pair.first].value;
+      const int inSecond = m_Second.labels[*pair.second].value;
+      agreement.dice = m_Overlap->GetDice(inFirst, inSecond);
+      agreement.iou = m_Overlap->GetIoU(inFirst, inSecond);
+    }
+    agreement.centroidShift =
+      FindCentroid(m_First, *pair.first).EuclideanDistanceTo(m_Maps.ToFirst(FindCentroid(m_Second, *pair.second)));
+    return agreement;
+  }
+
+  const CompareLabelsSettings & m_Settings;
+  const Events & m_Events;
+  SpaceMaps m_Maps;
+  ComparedSide m_First;
+  ComparedSide m_Second;
+  std::vector<LabelPair> m_Pairs;
+  std::optional<LabelOverlap> m_Overlap;
+};
+
+} // namespace
+
+std::vector<fs::path>
+CheckCompareLabels(const CompareLabelsSettings & settings)
+{
+  for (const LabelTolerance & tolerance : settings.tolerances)
+  {
+    if (!(tolerance.millimetres >= 0.0) || !std::isfinite(tolerance.millimetres))
+    {
+      throw Failure(FailureKind::Usage,
+                    "The tolerance of " + tolerance.pattern + " is " + FormatNumber(tolerance.millimetres) +
+                      "; give a length of at least 0 mm.");
+    }
+  }
+  if (settings.isTransformInverted && settings.transform.empty())
+  {
+    throw Failure(FailureKind::Usage, "No transform is named that could be inverted; name it with --transform.");
+  }
+  if (settings.table.empty())
+  {
+    return {};
+  }
+  CheckAgreementPath(settings.table);
+  return WithSidecars({ settings.table }, settings.provenance);
+}
+
+std::vector<LabelAgreement>
+CompareLabels(const CompareLabelsSettings & settings, const Events & events, std::vector<MadeFile> & made)
+{
+  const std::vector<fs::path> outputs = CheckCompareLabels(settings);
+  CheckOutputs(outputs, settings.first);
+  CheckOutputs(outputs, settings.second);
+  std::vector<LabelAgreement> agreements = Comparison(settings, events).Run();
+  if (!settings.table.empty())
+  {
+    OutputFiles files{ settings.provenance };
+    const Report rows = ReportAgreement(agreements);
+    StageText(WriteAgreement(rows, settings.table.extension().string()), settings.table, files.staged);
+    AddOutput(settings.table, "table", { { "agreement", rows } }, files);
+    files.staged.Commit();
+    made = files.made;
+  }
+  return agreements;
+}
+
+} // namespace rhombic

@@ -1,0 +1,48 @@
+#ifndef rhombicLabelPairs_h
+#define rhombicLabelPairs_h
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rhombic
+{
+
+/** A label or surface of a segmentation. */
+struct ComparedLabel
+{
+  std::string name;
+  int value = 0;        ///< 0 for surfaces of files
+  bool isNamed = false; ///< otherwise the name is made from the value
+};
+
+/** How labels are paired: see CompareLabelsSettings. */
+struct PairingRules
+{
+  std::vector<std::pair<std::string, std::string>> pairs;
+  bool isByValue = false;
+  bool areSingle = false; ///< two segmentations of one label each, whose names do not matter
+  std::vector<std::string> only;
+  std::vector<std::string> hidden;
+};
+
+/** A row of the comparison: numbers of labels in the two lists; nothing where a segmentation lacks the label. */
+struct LabelPair
+{
+  std::string name;
+  std::optional<std::size_t> first;
+  std::optional<std::size_t> second;
+};
+
+/** The pairs in the order of the first list, then what the second list has alone. Throws Failure(Usage): see
+ * CompareLabels(). */
+std::vector<LabelPair>
+PairLabels(const std::vector<ComparedLabel> & first,
+           const std::vector<ComparedLabel> & second,
+           const PairingRules & rules);
+
+} // namespace rhombic
+
+#endif
