@@ -29,7 +29,7 @@ struct TriangleSurfaceAgreement
 };
 
 /** Compares two surfaces. Triangles are divided until no side is longer than 3 mm, and where the distance is not linear
- * within 0.05 mm, down to sides of 0.1 mm or a quarter of the tolerance, so that neither large nor small triangles bias
+ * within 0.1 mm, down to sides of 0.1 mm or a quarter of the tolerance, so that neither large nor small triangles bias
  * the result. Measures of balls, boxes and rings are within 0.005 mm of the analytic ones.
  *
  * With one surface empty, distances are infinite and the normalised Dice is 0; with both empty, distances are 0 and the

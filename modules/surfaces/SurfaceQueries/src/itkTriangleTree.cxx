@@ -181,8 +181,9 @@ SquaredDistance(const PositionType & position, const Box & box)
   double squared = 0.0;
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
-    const double outside =
-      std::max({ double(box.lowest[axis]) - position[axis], 0.0, position[axis] - double(box.highest[axis]) });
+    const double below = double(box.lowest[axis]) - position[axis];
+    const double above = position[axis] - double(box.highest[axis]);
+    const double outside = std::max(std::max(below, above), 0.0);
     squared += outside * outside;
   }
   return squared;
@@ -422,22 +423,30 @@ TriangleTree::FindClosestPoint(const PositionType & position,
     Node node;
     double squaredDistance;
   };
-  const auto measure = [&](const Node & node) {
-    return DistantNode{ node, SquaredDistance(position, m_Nodes[node.id].box) };
-  };
-  std::array<DistantNode, MostNodes> stack; // the nearest on top
+  std::array<DistantNode, MostNodes> farther; // the nearest on top
   std::size_t size = 0;
-  stack[size++] = measure(this->Root());
-  while (size > 0)
+  Node node = this->Root();
+  double squaredDistance = SquaredDistance(position, m_Nodes[node.id].box);
+  for (;;)
   {
-    const DistantNode top = stack[--size];
-    if (top.squaredDistance > closest.squaredDistance)
+    if (squaredDistance <= closest.squaredDistance)
     {
-      continue;
-    }
-    if (top.node.IsLeaf())
-    {
-      for (const std::uint32_t triangle : this->GetLeaf(top.node.begin))
+      if (!node.IsLeaf())
+      {
+        const Node left = this->LeftOf(node);
+        const Node right = this->RightOf(node);
+        const double toLeft = SquaredDistance(position, m_Nodes[left.id].box);
+        const double toRight = SquaredDistance(position, m_Nodes[right.id].box);
+        const bool isLeftNearer = toLeft <= toRight;
+        if (const double toFarther = isLeftNearer ? toRight : toLeft; toFarther <= closest.squaredDistance)
+        {
+          farther[size++] = { isLeftNearer ? right : left, toFarther };
+        }
+        node = isLeftNearer ? left : right;
+        squaredDistance = isLeftNearer ? toLeft : toRight;
+        continue;
+      }
+      for (const std::uint32_t triangle : this->GetLeaf(node.begin))
       {
         if (SquaredDistance(position, this->GetTriangleBox(triangle)) <= closest.squaredDistance)
         {
@@ -448,20 +457,14 @@ TriangleTree::FindClosestPoint(const PositionType & position,
       {
         return closest;
       }
-      continue;
     }
-    const DistantNode left = measure(this->LeftOf(top.node));
-    const DistantNode right = measure(this->RightOf(top.node));
-    const bool isLeftNearer = left.squaredDistance <= right.squaredDistance;
-    for (const DistantNode & child : { isLeftNearer ? right : left, isLeftNearer ? left : right })
+    if (size == 0)
     {
-      if (child.squaredDistance <= closest.squaredDistance)
-      {
-        stack[size++] = child;
-      }
+      return closest;
     }
+    node = farther[--size].node;
+    squaredDistance = farther[size].squaredDistance;
   }
-  return closest;
 }
 
 TriangleTree::PositionType
