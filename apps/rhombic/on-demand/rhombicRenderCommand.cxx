@@ -51,6 +51,7 @@ struct RenderOptions
   std::vector<std::string> cuts;
   std::vector<std::string> uncut;
   std::vector<std::string> planes;
+  std::string colourBy;
 
   std::string window = "auto";
   bool isNeurological = false;
@@ -184,14 +185,6 @@ ParseAll(const std::vector<std::string> & texts, TRequest (*parse)(const std::st
   return requests;
 }
 
-bool
-IsSurfaceFile(const std::filesystem::path & path)
-{
-  const std::string extension = LowerCase(path.extension().string());
-  const std::vector<std::string> known = Split(GetSurfaceFileExtensions(), ", ");
-  return !extension.empty() && std::find(known.begin(), known.end(), extension) != known.end();
-}
-
 /** The source, without the preset that auto chooses: FinishSource() reads the scan for it. */
 PictureSource
 GetPictureSource(const RenderOptions & options)
@@ -200,7 +193,7 @@ GetPictureSource(const RenderOptions & options)
   source.scan = options.scan.GetSource();
   source.finish = options.finish;
   CheckSurfaceFinish(source.finish);
-  const bool isOfFiles = IsSurfaceFile(source.scan.path);
+  const bool isOfFiles = IsSurfacePath(source.scan.path);
   if (!isOfFiles && !options.furtherFiles.empty())
   {
     throw Failure(FailureKind::Usage,
@@ -328,6 +321,7 @@ CheckOptionsOfPage(const RenderOptions & options)
                                                    { options.hasNoLetters, "--no-letters" },
                                                    { options.isLandscape, "--landscape" },
                                                    { options.pixelsPerInch != none.pixelsPerInch, "--dpi" },
+                                                   { !options.colourBy.empty(), "--colour-by" },
                                                    { options.isNeurological, "--neurological" } };
   for (const auto & [isGiven, name] : others)
   {
@@ -418,6 +412,10 @@ RenderPictures(const RenderOptions & options, const CommandContext & context)
   settings.render.sameScale = options.hasSameScale;
   settings.render.ambientOcclusion = !options.hasNoShadows;
   settings.render.silhouettes = !options.hasNoSilhouettes;
+  if (!options.colourBy.empty())
+  {
+    settings.colourBy = ParseColourBy(options.colourBy);
+  }
   settings.annotations = ParseAnnotations(options);
   settings.thumbnail = options.thumbnail;
   settings.provenance = options.scan.GetProvenance(*context.settings);
@@ -596,6 +594,7 @@ PictureTable()
                  "--background",
                  "--no-silhouettes",
                  "--perspective",
+                 "--colour-by",
                  "--no-shadows",
                  "--annotate",
                  "--no-letters",
@@ -650,6 +649,12 @@ FitTable()
       Excludes({ "--zoom", "--perspective", "--same-scale" }) },
     { "--same-scale", &RenderOptions::hasSameScale, "all views at the scale of the view that needs most room" },
     { "--perspective", &RenderOptions::isPerspective, "perspective instead of parallel projection" },
+    { "--colour-by",
+      &RenderOptions::colourBy,
+      "colour surfaces by numbers, with a bar: PET.nii.gz (the value of another volume there), distance:OTHER.stl or "
+      "distance:LABELS.nii.gz (signed distance to the surface of the same name, or to the only one); and perhaps the "
+      "range and the map: pet.nii.gz,0,7,inferno (viridis, inferno, diverging)",
+      OfKind(SettingKind::Source) },
     { "--cut",
       &RenderOptions::cuts,
       "remove what lies above (axial), in front (coronal) or left of a plane (sagittal), named as for --slice, or "

@@ -1,6 +1,7 @@
 #ifndef rhombicPictureSteps_h
 #define rhombicPictureSteps_h
 
+#include "rhombicColourScale.h"
 #include "rhombicDicomCapture.h"
 #include "rhombicPictureIO.h"
 #include "rhombicRenderScan.h"
@@ -30,7 +31,8 @@ struct PictureScene
   std::string examination;     ///< "CT chest", "PET", "Segmentation", "Scan" if nothing is known, "Surfaces" of files
   std::string thresholds;      ///< "bone from 250.5, skin from -300.5"; empty without isosurfaces
   std::string unit;            ///< of the scan's values: "HU", "Bq/ml"; empty if unknown
-  std::vector<std::string> facts; ///< "scan: DICOM CT, 512 x 512 x 138, ...", and so on
+  std::vector<std::string> facts;   ///< "scan: DICOM CT, 512 x 512 x 138, ...", and so on
+  std::optional<ColourScale> scale; ///< of the surfaces' points, if they are coloured by numbers
   Report report;
 
   /** Of planes, by PlaneRequest::place, if they are not found from the surfaces. */

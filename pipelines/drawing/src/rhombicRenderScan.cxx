@@ -1,5 +1,6 @@
 #include "rhombicRenderScan.h"
 
+#include "rhombicColourSurfaces.h"
 #include "rhombicFailure.h"
 #include "rhombicGreyWindow.h"
 #include "rhombicLightbox.h"
@@ -108,6 +109,7 @@ AnnotationsOf(const RenderScanSettings & settings, const PictureScene & scene, c
   annotations.scaleBar = settings.annotations.scaleBar;
   annotations.figure = settings.annotations.figure && scene.isOriented;
   annotations.title = settings.annotations.title;
+  annotations.scale = scene.scale;
   annotations.background = background;
   if (settings.annotations.footnote)
   {
@@ -124,7 +126,7 @@ LegendOf(const RenderScanSettings & settings, const PictureScene & scene, const 
   std::vector<LegendRow> legend;
   for (std::size_t n = 0; n < scene.rows.size(); ++n)
   {
-    if (isSeen[n] && settings.annotations.legend && scene.rows.size() > 1)
+    if (isSeen[n] && settings.annotations.legend && scene.rows.size() > 1 && !scene.scale)
     {
       legend.push_back(scene.rows[n]);
     }
@@ -632,6 +634,11 @@ RenderScan(const RenderScanSettings & given, const Events & events, std::optiona
     OpenEnclosing(settings.source.surfaces, cuts, scene, events);
     PictureScene seen = scene;
     ShowFocus(cuts, settings, seen, events);
+    if (settings.colourBy)
+    {
+      ColourSurfaces(*settings.colourBy, seen, events);
+      settings.render.ambientOcclusion = false; // colours are seen as they are
+    }
     pictures = DrawViews(settings, seen, cuts, *renderer);
     scene.report = std::move(seen.report);
   }

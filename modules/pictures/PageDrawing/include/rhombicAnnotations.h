@@ -1,6 +1,7 @@
 #ifndef rhombicAnnotations_h
 #define rhombicAnnotations_h
 
+#include "rhombicColourScale.h"
 #include "rhombicDrawing.h"
 
 #include <optional>
@@ -32,12 +33,13 @@ struct ColouredOutline
 /** The letters, bars and lines that are drawn over a picture. */
 struct Annotations
 {
-  bool letters = true;           ///< the anatomical directions at the four edges
-  bool scaleBar = true;          ///< at the bottom left
-  bool figure = true;            ///< a small human figure as the view sees it, at the bottom right
-  std::string title;             ///< one line at the top left
-  std::string footnote;          ///< at the bottom left, small; lines end with \n
-  std::vector<LegendRow> legend; ///< names and volumes in a column at the right
+  bool letters = true;              ///< the anatomical directions at the four edges
+  bool scaleBar = true;             ///< at the bottom left
+  bool figure = true;               ///< a small human figure as the view sees it, at the bottom right
+  std::string title;                ///< one line at the top left
+  std::string footnote;             ///< at the bottom left, small; lines end with \n
+  std::vector<LegendRow> legend;    ///< names and volumes in a column at the right
+  std::optional<ColourScale> scale; ///< a bar of colours and numbers in a column at the right, in place of the legend
   std::vector<ColouredOutline> outlines;
   Ink background{ { 0.0, 0.0, 0.0 } }; ///< of the picture: text is white on a dark picture, else black
   double textSize = 0.0;               ///< pixels; 0: 1.8 % of the picture's shorter side, at least 11

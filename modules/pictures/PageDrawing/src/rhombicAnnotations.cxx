@@ -1,5 +1,6 @@
 #include "rhombicAnnotations.h"
 
+#include "rhombicColourBar.h"
 #include "rhombicFailure.h"
 #include "rhombicLegend.h"
 #include "rhombicWording.h"
@@ -50,7 +51,9 @@ struct Arrangement
   Rectangle picture;        ///< the place without the legend's column
   Rectangle scene;          ///< the part of the picture without annotations
   LegendLayout legend;
-  double top = 0.0; ///< of the legend
+  ColourBarLayout bar;
+  double top = 0.0;    ///< of the legend or bar
+  double bottom = 0.0; ///< of the same
 };
 
 double
@@ -96,10 +99,21 @@ Arrange(const Drawing & drawing, const Rectangle & place, const ViewFrame & fram
     std::max(WidthOfLetters(drawing, letters.left, a.text), WidthOfLetters(drawing, letters.right, a.text));
   const double top = place.top + a.padding + a.titleHeight;
   const double bottom = place.Bottom() - a.padding - a.footnoteHeight;
-  a.legend = FitLegend(drawing, annotations.legend, a.text, LegendShare * place.width - 2.0 * a.padding, bottom - top);
-  const double column = a.legend.lines.empty() ? 0.0 : a.legend.Width() + 2.0 * a.padding;
+  double column = 0.0;
+  if (annotations.scale)
+  {
+    a.bar = FitColourBar(drawing, *annotations.scale, a.text);
+    column = a.bar.width + 2.0 * a.padding;
+  }
+  else
+  {
+    const double widest = LegendShare * place.width - 2.0 * a.padding;
+    a.legend = FitLegend(drawing, annotations.legend, a.text, widest, bottom - top);
+    column = a.legend.lines.empty() ? 0.0 : a.legend.Width() + 2.0 * a.padding;
+  }
   a.picture = { place.left, place.top, place.width - column, place.height };
   a.top = top;
+  a.bottom = bottom;
 
   const double side = annotations.letters ? a.letterWidth + 1.6 * a.padding : 0.0;
   const double above = annotations.letters ? (LetterSize + 0.4) * size : 0.0;
@@ -348,7 +362,15 @@ DrawAnnotations(Drawing & drawing,
     const double letter = a.scene.left + 0.5 * a.scene.width - 2.0 * a.text.size; // at the bottom edge
     DrawScaleBar(drawing, left, bottom, pixelSize, std::min(BarShare * place.width, letter - left), a.text);
   }
-  DrawLegend(drawing, a.legend, { a.picture.Right() + a.padding, a.top }, a.text);
+  if (annotations.scale)
+  {
+    const Rectangle column{ a.picture.Right() + a.padding, a.top, a.bar.width, a.bottom - a.top };
+    DrawColourBar(drawing, *annotations.scale, a.bar, column, a.text);
+  }
+  else
+  {
+    DrawLegend(drawing, a.legend, { a.picture.Right() + a.padding, a.top }, a.text);
+  }
   if (!annotations.title.empty())
   {
     DrawTitle(drawing, place, annotations.title, a);

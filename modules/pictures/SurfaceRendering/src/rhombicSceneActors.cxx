@@ -34,12 +34,29 @@ namespace
 
 constexpr double Degrees = 57.29577951308232; // in a radian
 
+/** An array of VTK in the memory of colours, which must outlive it. */
+vtkSmartPointer<vtkUnsignedCharArray>
+ShareColours(const std::vector<std::array<std::uint8_t, 3>> & colours)
+{
+  auto array = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  array->SetNumberOfComponents(3);
+  // VTK has no arrays of constant values.
+  array->SetArray(const_cast<std::uint8_t *>(colours.front().data()), static_cast<vtkIdType>(3 * colours.size()), 1);
+  return array;
+}
+
 vtkSmartPointer<vtkActor>
 MakeSurfaceActor(const SceneSurface & item, std::size_t number, const std::vector<ClipPlane> & cuts)
 {
   const vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(SurfaceToPolyData(item.surface));
-  mapper->ScalarVisibilityOff();
+  const auto data = SurfaceToPolyData(item.surface);
+  mapper->SetInputData(data);
+  mapper->SetScalarVisibility(item.pointColours != nullptr);
+  if (item.pointColours)
+  {
+    data->GetPointData()->SetScalars(ShareColours(*item.pointColours));
+    mapper->SetColorModeToDirectScalars();
+  }
   const auto backward = static_cast<double>(std::min<std::size_t>(number, 100)); // so that the first is seen
   mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, backward);
   for (const ClipPlane & cut : cuts)
@@ -58,6 +75,7 @@ MakeSurfaceActor(const SceneSurface & item, std::size_t number, const std::vecto
   vtkProperty * const property = actor->GetProperty();
   property->SetColor(item.colour[0], item.colour[1], item.colour[2]);
   property->SetOpacity(item.opacity);
+  property->SetLighting(item.pointColours == nullptr);
   property->SetSpecular(item.isGlossy ? 1.0 : 0.0);
   property->SetInterpolation(item.surface->HasNormals() ? VTK_GOURAUD : VTK_FLAT);
   return actor;
@@ -107,6 +125,15 @@ MakePlaneActor(const ScenePlane & plane)
   return actor;
 }
 
+/** Whether a surface has colours of points, which are drawn without light: by the pass only with a renderer's lights.
+ */
+bool
+HasPointColours(const Scene & scene)
+{
+  return std::any_of(
+    scene.surfaces.begin(), scene.surfaces.end(), [](const auto & item) { return item.pointColours != nullptr; });
+}
+
 } // namespace
 
 vtkSmartPointer<vtkRenderer>
@@ -129,8 +156,9 @@ MakeRenderer(const Scene & scene, const RenderSettings & settings)
   renderer->SetBackgroundAlpha(hasAlpha ? 0.0 : 1.0);
   const vtkNew<vtkRhombicSurfacePass> pass;
   vtkRhombicOpaquePass * const surfaces = pass->GetSurfaces();
-  surfaces->SetLights(settings.style == PictureStyle::Clinic ? vtkRhombicOpaquePass::ClinicLights
-                                                             : vtkRhombicOpaquePass::PaperLights);
+  surfaces->SetLights(HasPointColours(scene)                   ? vtkRhombicOpaquePass::RendererLights
+                      : settings.style == PictureStyle::Clinic ? vtkRhombicOpaquePass::ClinicLights
+                                                               : vtkRhombicOpaquePass::PaperLights);
   surfaces->SetSamples(settings.samples);
   surfaces->SetAmbientOcclusion(settings.ambientOcclusion);
   surfaces->SetSilhouettes(settings.silhouettes);

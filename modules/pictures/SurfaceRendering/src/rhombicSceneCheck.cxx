@@ -101,6 +101,11 @@ CheckCuts(const Scene & scene)
   std::vector<std::string> names;
   for (const SceneSurface & item : scene.surfaces)
   {
+    if (item.pointColours && item.pointColours->size() != item.surface->GetNumberOfPoints())
+    {
+      FailUsage("The surface " + item.name + " has " + std::to_string(item.pointColours->size()) + " colours for " +
+                std::to_string(item.surface->GetNumberOfPoints()) + " points.");
+    }
     names.push_back(item.name);
   }
   for (const ClipPlane & cut : scene.cuts)

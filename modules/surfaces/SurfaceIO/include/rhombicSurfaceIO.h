@@ -29,6 +29,10 @@ struct SurfaceFileSettings
 std::string
 GetSurfaceFileExtensions();
 
+/** Whether a path has one of these extensions, in upper or lower case. */
+bool
+IsSurfacePath(const std::filesystem::path & path);
+
 /** Throws Failure(Usage) for a path to which WriteSurfaces() can't write this number of surfaces. Call it before long
  * work. */
 void

@@ -179,6 +179,14 @@ GetSurfaceFileExtensions()
   return ListExtensions([](const SurfaceFormat &) { return true; });
 }
 
+bool
+IsSurfacePath(const fs::path & path)
+{
+  const std::string extension = LowerCase(path.extension().string());
+  const std::vector<std::string> known = Split(GetSurfaceFileExtensions(), ", ");
+  return !extension.empty() && std::find(known.begin(), known.end(), extension) != known.end();
+}
+
 void
 CheckSurfacePath(const fs::path & path, std::size_t numberOfSurfaces)
 {

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,10 @@ struct SceneSurface
   double opacity = 1.0;   ///< above 0, at most 1: share of the background that the near wall of a ball hides on average
   bool isGlossy = false;  ///< shines as if it were wet; matte otherwise
   std::int32_t label = 0; ///< of the region in its label map; 0 for surfaces of no label
+
+  /** A colour (sRGB) of each point, in place of the colour; or null. Scenes with such surfaces are drawn without their
+   * lights, so that colours are seen as they are. */
+  std::shared_ptr<const std::vector<std::array<std::uint8_t, 3>>> pointColours = nullptr;
 };
 
 /** Several surfaces as one mesh, in which touching surfaces share their wall: equal points are one point, and a
