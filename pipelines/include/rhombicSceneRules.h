@@ -26,6 +26,7 @@ struct SceneRule
   std::optional<Colour> colour;
   std::optional<double> opacity; ///< above 0, at most 1
   std::optional<bool> isGlossy;  ///< see SceneSurface
+  bool isAsked = false;          ///< by a user, not by a preset
 };
 
 /** Which surfaces are shown, and in which colours. */
@@ -46,6 +47,10 @@ FitsPattern(const std::string & pattern, const std::string & name);
  * "vessels=,,glossy". Throws Failure(Usage). */
 SceneRule
 ParseSceneRule(const std::string & text);
+
+/** Sentences about rules that a user asked for by a pattern of names and that fit none, with the nearest name. */
+std::vector<std::string>
+FindUnusedRules(const std::vector<SceneRule> & rules, const std::vector<std::string> & names);
 
 /** Whether the last rule with a look for this name makes it glossy. */
 bool

@@ -359,6 +359,14 @@ MeshScan(const MeshScanSettings & settings, const Events & events, std::optional
   const SurfaceMaking making{ settings.source, settings.surfaces, settings.finish, SurfaceUse::Files, events };
   std::vector<MeshedSurface> surfaces = ExtractSource(making, loaded, StoresNormals(settings.mesh));
   loaded.DropVolumes();
+  std::vector<std::string> names;
+  std::transform(surfaces.begin(), surfaces.end(), std::back_inserter(names), [](const auto & surface) {
+    return surface.scene.name;
+  });
+  for (const std::string & sentence : FindUnusedRules(settings.surfaces.rules.rules, names))
+  {
+    events.Note("warning: " + sentence);
+  }
   CheckOutputs(OutputsOf(PathsOf(settings.mesh, surfaces), settings), settings.source, settings.surfaces);
   FinishSurfaces(making, surfaces);
 

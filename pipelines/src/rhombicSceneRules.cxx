@@ -117,6 +117,7 @@ ParseSceneRule(const std::string & text)
 {
   const auto equals = text.find('=');
   SceneRule rule;
+  rule.isAsked = true;
   rule.pattern = text.substr(0, equals);
   const auto fields = equals == std::string::npos ? std::vector<std::string>{} : Split(text.substr(equals + 1), ",");
   if (rule.pattern.empty() || fields.size() > 3)
@@ -148,6 +149,23 @@ ParseSceneRule(const std::string & text)
     }
   }
   return rule;
+}
+
+std::vector<std::string>
+FindUnusedRules(const std::vector<SceneRule> & rules, const std::vector<std::string> & names)
+{
+  std::vector<std::string> sentences;
+  for (const SceneRule & rule : rules)
+  {
+    const auto fits = [&rule](const std::string & name) { return FitsPattern(rule.pattern, name); };
+    if (rule.isAsked && !ToNumber<double>(rule.pattern) && std::none_of(names.begin(), names.end(), fits))
+    {
+      const std::string nearest = NearestName(rule.pattern, names);
+      sentences.push_back("no surface is called " + rule.pattern + ", for which a look was given" +
+                          (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+    }
+  }
+  return sentences;
 }
 
 bool

@@ -117,7 +117,7 @@ TEST(Hiding, WhatLiesBeforeTheFocusHidesItInThatView)
   EXPECT_EQ(rhombic::FindHiding(scene, isFocus, { views[0], views[1] }), (Numbers{ 1, 2, 3 }));
 }
 
-TEST(Hiding, TheBestViewIsTheFirstInWhichLeastIsHidden)
+TEST(Hiding, TheBestViewIsTheFirstInWhichMostIsSeen)
 {
   const std::vector<bool> isFocus{ true, false, false };
   Scene scene{ { Cube("focus", 5), Box("front", { -5, -20, -5 }, { 5, -16, 5 }), Cube("skin", 30, 0.2) }, {}, {} };
@@ -125,6 +125,9 @@ TEST(Hiding, TheBestViewIsTheFirstInWhichLeastIsHidden)
   scene.surfaces[1].opacity = 0.5; // can be seen through
   EXPECT_EQ(rhombic::FindBestView(scene, isFocus).name, "anterior");
   scene.surfaces[1] = Box("front and back", { -5, -20, -5 }, { 3, 20, -5.5 });
+  EXPECT_EQ(rhombic::FindBestView(scene, isFocus).name, "anterior");
+  scene.surfaces[0] = Box("tube", { -2, -2, -20 }, { 2, 2, 20 }); // half of it is seen, and all of its end
+  scene.surfaces[1] = Box("around", { -9, -9, -20 }, { 9, 9, 0 });
   EXPECT_EQ(rhombic::FindBestView(scene, isFocus).name, "anterior");
 }
 

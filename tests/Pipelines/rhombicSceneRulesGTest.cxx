@@ -191,4 +191,16 @@ TEST(SceneRules, NeededNamesMustBeShown)
   EXPECT_THROW(ApplySceneRules(rules, requests, nullptr), Failure);
 }
 
+TEST(SceneRules, LooksForNothingAreSaid)
+{
+  std::vector<rhombic::SceneRule> rules{ rhombic::ParseSceneRule("bo*=,0.3"),
+                                         rhombic::ParseSceneRule("muscls=red"),
+                                         rhombic::ParseSceneRule("7=red") };
+  rules.emplace_back().pattern = "lung*"; // of a preset
+  const auto sentences = rhombic::FindUnusedRules(rules, { "bone", "muscles" });
+  ASSERT_EQ(sentences.size(), 1u);
+  EXPECT_NE(sentences[0].find("muscls"), std::string::npos);
+  EXPECT_NE(sentences[0].find("did you mean muscles?"), std::string::npos);
+}
+
 } // namespace

@@ -15,7 +15,7 @@ namespace
 constexpr int RaysAlongSide = 256;
 constexpr double EnclosedShare = 0.9; // of the rays through a surface
 constexpr double HidingShare = 0.005; // of the rays through the focus
-constexpr double LikeShare = 0.05;    // views whose shares differ by less are alike
+constexpr double LikeShare = 0.05;    // views whose seen areas differ by less are alike
 
 constexpr float Nothing = std::numeric_limits<float>::infinity();
 
@@ -296,18 +296,20 @@ FindBestView(const Scene & scene, const std::vector<bool> & isFocus)
 {
   const LPSBox box = BoxOfFocus(scene, isFocus);
   const View * best = nullptr;
-  double hidden = 2.0;
+  double largest = -1.0; // seen area, in mm^2
   for (const View & view : StandardViews())
   {
     const Projection rays = RaysThrough(box, view.frame);
     const std::vector<float> focus = FindNearest(scene, rays, [&isFocus](std::size_t n) { return isFocus[n]; });
     const std::vector<float> front =
       FindNearest(scene, rays, [&](std::size_t n) { return !isFocus[n] && scene.surfaces[n].opacity == 1.0; });
-    const double share = HiddenShare(front, focus);
-    if (share <= hidden - LikeShare)
+    const auto met =
+      static_cast<double>(std::count_if(focus.begin(), focus.end(), [](float depth) { return depth < Nothing; }));
+    const double seen = met * (1.0 - HiddenShare(front, focus)) * rays.pixelSize * rays.pixelSize;
+    if (seen > (1.0 + LikeShare) * largest)
     {
       best = &view;
-      hidden = share;
+      largest = seen;
     }
   }
   return *best;

@@ -260,9 +260,15 @@ MakePictureScene(const PictureSource & source,
   PictureScene scene = source.surfaceFiles.empty()
                          ? MakeSceneOfScan(source, std::move(volume), keepsScan, onlySlices, events)
                          : MakeSceneOfFiles(source, events);
+  std::vector<std::string> names;
   for (SceneSurface & surface : scene.surfaces)
   {
     surface.isGlossy = IsGlossy(source.surfaces.rules.rules, surface.name);
+    names.push_back(surface.name);
+  }
+  for (const std::string & sentence : FindUnusedRules(source.surfaces.rules.rules, names))
+  {
+    events.Note("warning: " + sentence);
   }
   return scene;
 }
@@ -273,7 +279,7 @@ ShadedSurfaces(const PictureScene & scene)
   std::vector<SceneSurface> shaded = scene.surfaces;
   for (SceneSurface & surface : shaded)
   {
-    if (!surface.surface->HasNormals())
+    if (!surface.surface->HasNormals() && !surface.pointColours)
     {
       const auto copy = itk::TriangleSurface::New();
       copy->Graft(surface.surface);

@@ -216,8 +216,18 @@ NewLine(cairo_t * context, const std::string & text, const TextStyle & style)
   const double width = ExtentsOf(layout).width;
   if (style.largestWidth > 0.0 && width > style.largestWidth)
   {
-    const double shrinking = std::max(0.995 * style.largestWidth / width, SmallestShrinking); // widths are rounded
-    SetFont(layout.get(), style.size * shrinking, style.bold);
+    constexpr double step = 0.98; // letters have widths of whole pixels, so that smaller ones may be as wide
+    double shrinking = 0.995 * style.largestWidth / width;
+    do
+    {
+      shrinking = std::max(shrinking, SmallestShrinking);
+      SetFont(layout.get(), style.size * shrinking, style.bold);
+      if (ExtentsOf(layout).width <= style.largestWidth)
+      {
+        return layout;
+      }
+      shrinking *= step;
+    } while (shrinking > SmallestShrinking);
     pango_layout_set_width(layout.get(), static_cast<int>(style.largestWidth * PANGO_SCALE));
     pango_layout_set_ellipsize(layout.get(), PANGO_ELLIPSIZE_MIDDLE);
   }
