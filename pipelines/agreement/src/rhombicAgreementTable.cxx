@@ -225,7 +225,7 @@ SummarizeAgreement(const LabelAgreement & label)
          FormatFixed(surfaces.hausdorff95, 2) + " mm, HD " + FormatFixed(surfaces.hausdorff, 2) + " mm, MASD " +
          FormatFixed(surfaces.meanOfMeans, 2) + " mm, NSD " + FormatFixed(surfaces.normalizedDice, 3) + " at " +
          FormatNumber(label.tolerance) + " mm" +
-         (label.noiseFloor && surfaces.meanOfMeans < *label.noiseFloor
+         (label.noiseFloor && surfaces.meanOfMeans > 0.0 && surfaces.meanOfMeans < *label.noiseFloor
             ? "; below the noise floor of " + FormatFixed(*label.noiseFloor, 2) + " mm"
             : "");
 }

@@ -28,7 +28,7 @@ struct TriangleSurfaceAgreement
   Side worstSide = Side::First;
 };
 
-/** Compares two surfaces. Triangles are divided until no side is longer than 3 mm, and where the distance is not linear
+/** Compares two surfaces. Triangles are divided until no side is longer than 6 mm, and where the distance is not linear
  * within 0.1 mm, down to sides of 0.1 mm or a quarter of the tolerance, so that neither large nor small triangles bias
  * the result. Measures of balls, boxes and rings are within 0.005 mm of the analytic ones.
  *

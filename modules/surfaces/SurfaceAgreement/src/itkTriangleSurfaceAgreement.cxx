@@ -11,7 +11,7 @@ namespace
 {
 
 constexpr double MostBent = 0.1;    // mm
-constexpr double LongestSide = 3.0;  // mm
+constexpr double LongestSide = 6.0;  // mm
 constexpr double ShortestSide = 0.1; // mm
 
 /** A surface that is compared with another one. */
