@@ -404,6 +404,47 @@ TEST_F(CompareLabels, MirroredMapsAreDoubted)
   EXPECT_NE(m_Notes.find("14 mm beside those of A"), std::string::npos) << m_Notes;
 }
 
+TEST_F(CompareLabels, GrowthOfALesion)
+{
+  EXPECT_EQ(rhombic::CountDays("2024-02-28", "2024-03-01"), 2.0) << "2024 has a 29th of February";
+  EXPECT_EQ(rhombic::CountDays("2023-12-31", "2025-01-01"), 367.0);
+  for (const auto & [first, second] : { std::pair{ "2025-01-03", "2025-01-03" },
+                                        { "2025-01-03", "2024-01-03" },
+                                        { "2025-02-30", "2026-01-01" },
+                                        { "03.01.2025", "2026-01-01" },
+                                        { "2025-01-03", "2026-01-10x" } })
+  {
+    EXPECT_THROW(rhombic::CountDays(first, second), rhombic::Failure) << first << ' ' << second;
+  }
+  this->Write("a.nrrd", Cubes, Ball(8.0));
+  this->Write("b.nrrd", Cubes, Ball(8.0 * std::cbrt(2.0)));
+  CompareLabelsSettings settings = this->SettingsFor("a.nrrd", "b.nrrd");
+  settings.days = 100.0;
+  settings.table = this->PathOf("table.tsv");
+  const LabelAgreement found = this->Run(settings).at(0);
+  std::ifstream file(settings.table);
+  std::string heading, row;
+  std::getline(file, heading);
+  std::getline(file, row);
+  const auto fieldOf = [&](const std::string & column) {
+    std::istringstream names(heading), values(row);
+    std::string name, value;
+    while (std::getline(names, name, '\t') && std::getline(values, value, '\t') && name != column)
+    {}
+    return std::stod(value);
+  };
+  EXPECT_NEAR(fieldOf("doubling_time_days"), 100.0, 3.0);
+  EXPECT_NEAR(fieldOf("growth_ml_per_year"), found.first.millilitres * 3.6525, 0.3);
+  std::swap(settings.first.path, settings.second.path);
+  this->Run(settings);
+  EXPECT_THROW((file = std::ifstream(settings.table),
+                std::getline(file, heading),
+                std::getline(file, row),
+                fieldOf("doubling_time_days")),
+               std::invalid_argument)
+    << "a lesion that shrinks does not double";
+}
+
 /** A map of a real scan against itself moved by a voxel. */
 TEST_F(CompareLabels, OneVoxelOfARealMap)
 {

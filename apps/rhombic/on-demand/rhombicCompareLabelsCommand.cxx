@@ -28,6 +28,7 @@ struct CompareLabelsOptions
   std::string surface = "smooth";
   std::string transform;
   bool isTransformInverted = false;
+  std::vector<std::string> dates;
   std::string output;
   ScanOptions scan;
 };
@@ -128,6 +129,14 @@ GetSettings(const CompareLabelsOptions & options, const CommandSettings & comman
     FindNamed<bool>("kind of surface", options.surface, { { "smooth", false }, { "voxels", true } });
   settings.transform = options.transform;
   settings.isTransformInverted = options.isTransformInverted;
+  if (!options.dates.empty())
+  {
+    if (options.dates.size() != 2)
+    {
+      throw Failure(FailureKind::Usage, "--dates takes two dates, as --dates 2025-01-03,2026-01-10.");
+    }
+    settings.days = CountDays(options.dates[0], options.dates[1]);
+  }
   settings.table = options.output;
   settings.provenance = options.scan.GetProvenance(command);
   return settings;
@@ -191,6 +200,12 @@ MeasureTable()
       &Options::isTransformInverted,
       "the transform maps points of B's space to A's, as a registration writes it with B fixed",
       Needs({ "--transform" }) },
+    { "--dates",
+      &Options::dates,
+      "dates of A and of B, as 2025-01-03,2026-01-10: the table has the growth of each label in ml a year, and the "
+      "days "
+      "in which it doubles",
+      SplitAtCommas },
     { "-o,--output",
       &Options::output,
       "table of the agreement: .csv, .tsv or .json (default: printed)",

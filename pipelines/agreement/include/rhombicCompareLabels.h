@@ -52,6 +52,8 @@ struct CompareLabelsSettings
   std::filesystem::path transform;  ///< of ITK in text, affine: maps points of A's space to B's; empty: one space
   bool isTransformInverted = false; ///< the transform maps points of B's space to A's
 
+  std::optional<double> days; ///< from A to B, above 0: the table has the growth of each label
+
   std::filesystem::path table; ///< .csv, .tsv or .json; empty: none
   Provenance provenance;
 };
@@ -83,10 +85,16 @@ struct LabelAgreement
   std::optional<double> iou;
   itk::TriangleSurfaceAgreement surfaces; ///< for AgreementStatus::Compared, and its normalised Dice
   double tolerance = 1.0;                 ///< in mm
+  std::optional<double> days;             ///< from A to B
   /** Mean distance in mm from A's surface to the surface of its voxels, below which distances mean nothing. */
   std::optional<double> noiseFloor;
   std::optional<double> centroidShift; ///< in mm
 };
+
+/** The days from one date to another, both written as 2025-01-31. Throws Failure(Usage) for other texts, for dates that
+ * do not exist, and unless the second is later. */
+double
+CountDays(const std::string & first, const std::string & second);
 
 /** Checks the settings, without reading or writing anything. Returns the files that CompareLabels() writes. Throws
  * Failure(Usage). */

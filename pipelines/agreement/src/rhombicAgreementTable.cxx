@@ -72,6 +72,24 @@ FindDifference(const LabelAgreement & label)
   return label.second.millilitres - label.first.millilitres;
 }
 
+/** In ml for each year of 365.25 days. */
+std::optional<double>
+FindGrowth(const LabelAgreement & label)
+{
+  constexpr double daysOfYear = 365.25;
+  return label.days ? std::optional(FindDifference(label) / *label.days * daysOfYear) : std::nullopt;
+}
+
+/** The days in which a volume that grows exponentially doubles; nothing for one that does not grow. */
+std::optional<double>
+FindDoublingTime(const LabelAgreement & label)
+{
+  const bool grows = label.first.millilitres > 0.0 && label.second.millilitres > label.first.millilitres;
+  return label.days && grows
+           ? std::optional(*label.days * std::log(2.0) / std::log(label.second.millilitres / label.first.millilitres))
+           : std::nullopt;
+}
+
 const Column Columns[] = {
   { "label", [](const LabelAgreement & label) { return Report(label.label); } },
   { "status", [](const LabelAgreement & label) { return Report(NameStatus(label.status)); } },
@@ -98,6 +116,9 @@ const Column Columns[] = {
     true },
   { "tolerance_mm", [](const LabelAgreement & label) { return NumberOrNull(label.tolerance); } },
   { "noise_floor_mm", [](const LabelAgreement & label) { return NumberOrNull(label.noiseFloor); } },
+  { "days", [](const LabelAgreement & label) { return NumberOrNull(label.days); } },
+  { "growth_ml_per_year", [](const LabelAgreement & label) { return NumberOrNull(FindGrowth(label)); } },
+  { "doubling_time_days", [](const LabelAgreement & label) { return NumberOrNull(FindDoublingTime(label)); } },
   { "centroid_shift_mm", [](const LabelAgreement & label) { return NumberOrNull(label.centroidShift); }, true },
   { "worst_x_mm", FindWorst<0> },
   { "worst_y_mm", FindWorst<1> },

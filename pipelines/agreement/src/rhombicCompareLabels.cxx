@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <iterator>
 
 namespace fs = std::filesystem;
@@ -407,6 +408,7 @@ private:
   {
     LabelAgreement agreement;
     agreement.label = pair.name;
+    agreement.days = m_Settings.days;
     agreement.tolerance = FindTolerance(m_Settings.tolerances, pair.name);
     agreement.first = MeasureVolume(m_First, pair.first);
     agreement.second = MeasureVolume(m_Second, pair.second);
@@ -440,6 +442,30 @@ private:
 };
 
 } // namespace
+
+double
+CountDays(const std::string & first, const std::string & second)
+{
+  const auto toDays = [](const std::string & date) {
+    std::tm time{};
+    const char * const end = strptime(date.c_str(), "%Y-%m-%d", &time);
+    std::tm asIs = time;
+    const std::time_t seconds = timegm(&time);
+    if (end == nullptr || *end != '\0' || time.tm_mday != asIs.tm_mday || time.tm_mon != asIs.tm_mon)
+    {
+      throw Failure(FailureKind::Usage, "'" + date + "' is no date; write it as 2025-01-31.");
+    }
+    constexpr double secondsOfDay = 86400.0;
+    return static_cast<double>(seconds) / secondsOfDay;
+  };
+  const double days = toDays(second) - toDays(first);
+  if (!(days > 0.0))
+  {
+    throw Failure(FailureKind::Usage,
+                  "The date of B, " + second + ", is not later than that of A, " + first + "; name A's date first.");
+  }
+  return days;
+}
 
 std::vector<fs::path>
 CheckCompareLabels(const CompareLabelsSettings & settings)
