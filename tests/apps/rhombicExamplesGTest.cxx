@@ -282,6 +282,8 @@ TEST_F(Examples, SayWhatIsWrongInsteadOfCrashing)
          Refusal{ "ExtractAndMeasure scan.nii.gz nan out.stl", "THRESHOLD can't be 'nan'" },
          Refusal{ "ExtractAndMeasure scan.nii.gz 1e9 out.stl", "no triangles" },
          Refusal{ "ExtractAndMeasure scan.nii.gz 0 out.xyz", "names no surface format" },
+         Refusal{ "HowFarApart", "usage: " },
+         Refusal{ "HowFarApart missing.stl missing.stl 1", "missing.stl" },
          Refusal{ "LabelsToWalls", "usage: " },
          Refusal{ "LabelsToWalls missing out.vtp", "no such file" },
          Refusal{ "SegmentationToSurface", "usage: " },
@@ -344,6 +346,19 @@ TEST_F(Examples, FromMarchingCubes)
   const std::string output = this->Run("FromMarchingCubes " + phantom + "/phantom.nii.gz -485.5");
   EXPECT_GT(Figures(output, "Rhombic")[0], 1000.0);
   EXPECT_LT(Figures(output, "Rhombic")[0], Figures(output, "vtkFlyingEdges3D")[0]);
+}
+
+/** Isosurfaces of one scan at two thresholds: a surface agrees with itself, and the lower threshold's encloses more. */
+TEST_F(Examples, HowFarApartMeasuresTwoIsosurfaces)
+{
+  this->Run("ScanToSurface " + phantom + "/dicom 300.5 inner.stl && ScanToSurface " + phantom +
+            "/dicom 200.5 outer.stl");
+  const std::string same = this->Run("HowFarApart inner.stl inner.stl 0.5");
+  EXPECT_EQ(Figures(same, "Hausdorff distance").front(), 0.0);
+  EXPECT_EQ(Figures(same, "normalised surface Dice").front(), 1.0);
+  const std::string apart = this->Run("HowFarApart inner.stl outer.stl 0.5");
+  EXPECT_GT(Figures(apart, "mean distance").front(), 0.01);
+  EXPECT_LT(Figures(apart, "normalised surface Dice").front(), 1.0);
 }
 
 TEST_F(Examples, LabelsToWallsKeepsTheVolumesOfOrgans)

@@ -10,7 +10,7 @@ namespace itk
 namespace
 {
 
-constexpr double MostBent = 0.1;    // mm
+constexpr double MostBent = 0.1;     // mm
 constexpr double LongestSide = 6.0;  // mm
 constexpr double ShortestSide = 0.1; // mm
 

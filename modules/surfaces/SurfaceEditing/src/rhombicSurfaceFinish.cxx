@@ -116,8 +116,10 @@ Simplify(const RefinementFunctions & functions,
   const auto triangles = functions.simplify(surface, settings, report);
   constexpr itk::SizeValueType measuredTriangles = 30'000; // of either surface; simplification itself checks all
   const auto distances = ComputeTriangleSurfaceDistances(*original, surface, measuredTriangles);
-  return { settings.maximumError,  triangles,    std::max(distances.fromFirst.GetMean(), distances.fromSecond.GetMean()),
-           distances.GetMaximum(), volumeBefore, functions.computeVolume(surface) };
+  return {
+    settings.maximumError,  triangles,    std::max(distances.fromFirst.GetMean(), distances.fromSecond.GetMean()),
+    distances.GetMaximum(), volumeBefore, functions.computeVolume(surface)
+  };
 }
 
 /** "volume +0.12 %". */
