@@ -104,6 +104,31 @@ TEST_F(RenderCommand, TheLiverIsOnTheSideOfItsLetter)
   }
 }
 
+TEST_F(RenderCommand, NamesStandBesideTheirSurfaces)
+{
+  const std::string one = phantomLabels + " --only liver --draw liver=red --no-sidecar ";
+  RunWell("--threads 1 render " + one + "--size 400x300 --annotate names -o one.png");
+  RunWell("--threads 3 render " + one + "--size 400x300 --annotate names -o three.png");
+  EXPECT_EQ(Bytes("one.png"), Bytes("three.png"));
+  RunWell("render " + one + "--sheet --annotate letters -o plain.pdf");
+  RunWell("render " + one + "--sheet --annotate names -o names.pdf");
+  if (std::system("command -v pdftotext >/dev/null") != 0)
+  {
+    GTEST_SKIP() << "pdftotext is not installed (package poppler-utils)";
+  }
+  const auto count = [this](const std::string & file, const std::string & word) {
+    const std::string text = rhombictest::RunShell("pdftotext " + file + " -", m_Folder.Path()).output;
+    int found = 0;
+    for (std::size_t at = text.find(word); at != text.npos; at = text.find(word, at + 1))
+    {
+      ++found;
+    }
+    return found;
+  };
+  EXPECT_EQ(count("names.pdf", "liver"), count("plain.pdf", "liver") + 4) << "once in each view";
+  EXPECT_EQ(count("names.pdf", "0 cm"), 0) << "no scale bar";
+}
+
 TEST_F(RenderCommand, CutsRemoveTheSideThatIsSaid)
 {
   // Of the liver, half is left; the cut at its centroid faces the viewer.

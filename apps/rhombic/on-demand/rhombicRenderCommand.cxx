@@ -159,11 +159,11 @@ ParseAnnotations(const RenderOptions & options)
 {
   AnnotationSettings settings;
   settings.letters = settings.scaleBar = settings.legend = false;
-  static const NamedValues<bool AnnotationSettings::*> known{ { "letters", &AnnotationSettings::letters },
-                                                              { "scale", &AnnotationSettings::scaleBar },
-                                                              { "legend", &AnnotationSettings::legend },
-                                                              { "figure", &AnnotationSettings::figure },
-                                                              { "footnote", &AnnotationSettings::footnote } };
+  static const NamedValues<bool AnnotationSettings::*> known{
+    { "letters", &AnnotationSettings::letters },   { "scale", &AnnotationSettings::scaleBar },
+    { "legend", &AnnotationSettings::legend },     { "figure", &AnnotationSettings::figure },
+    { "footnote", &AnnotationSettings::footnote }, { "names", &AnnotationSettings::names }
+  };
   for (const std::string & word : options.annotations)
   {
     if (word != "none")
@@ -268,6 +268,15 @@ RenderSheetOf(const RenderOptions & options, const CommandContext & context)
   {
     throw Failure(FailureKind::Usage, "Pages are not transparent; use --style paper or clinic.");
   }
+  const AnnotationSettings annotations = ParseAnnotations(options);
+  if (annotations.figure || annotations.footnote)
+  {
+    throw Failure(FailureKind::Usage,
+                  "The views of a page have no figure or footnote; choose letters, scale and names for --annotate.");
+  }
+  settings.letters = annotations.letters;
+  settings.scaleBar = annotations.scaleBar;
+  settings.names = annotations.names;
   settings.title = options.title;
   settings.isLandscape = options.isLandscape;
   settings.pixelsPerInch = options.pixelsPerInch;
@@ -596,7 +605,6 @@ PictureTable()
                  "--perspective",
                  "--colour-by",
                  "--no-shadows",
-                 "--annotate",
                  "--no-letters",
                  "--pixel-size",
                  "--same-scale" }) },
@@ -690,8 +698,7 @@ LookTable()
     { "--annotate",
       &RenderOptions::annotations,
       "what is written over pictures: letters (of directions), scale, legend (of two surfaces or more), figure, "
-      "footnote; "
-      "or none",
+      "footnote, names (beside views, with lines to the surfaces); or none; on pages letters, scale and names",
       SplitAtCommas,
       ShowingDefault },
     { "--no-letters", &RenderOptions::hasNoLetters, "leave out the orientation letters at the edges" },

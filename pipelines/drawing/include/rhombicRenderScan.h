@@ -62,6 +62,7 @@ struct AnnotationSettings
   bool scaleBar = true;  ///< in mm or cm; not in perspective
   bool legend = true;    ///< names and volumes, if there are two surfaces or more
   bool figure = false;   ///< a small human figure as the view sees it
+  bool names = false;    ///< of surfaces that are seen, beside views, with lines to them; not in perspective
   std::string title;     ///< above the picture
   bool footnote = false; ///< thresholds, lattice and version, below the picture
 };
@@ -132,6 +133,9 @@ struct RenderSheetSettings : PictureSettings
                            StandardViews()[3] }; ///< up to 4
   PictureStyle style = PictureStyle::Paper;      ///< Clinic makes a dark page
   std::string title;
+  bool letters = true; ///< the anatomical directions at the edges of pictures
+  bool scaleBar = true;
+  bool names = false; ///< as AnnotationSettings::names
   bool isLandscape = false;
   double pixelsPerInch = 200.0; ///< 36 to 600
   std::filesystem::path page;   ///< .png or .jpg for one page; .tif or .pdf for all

@@ -290,6 +290,23 @@ ShadedSurfaces(const PictureScene & scene)
   return shaded;
 }
 
+std::vector<PointedName>
+NamesOf(const PictureScene & scene, const std::vector<NamePlace> & places, const Projection & projection)
+{
+  std::vector<PointedName> names;
+  for (const NamePlace & place : places)
+  {
+    const LegendRow & row = scene.rows[place.surface];
+    names.push_back({ row.name,
+                      row.colour,
+                      projection.PositionOf(place.point),
+                      place.seen,
+                      projection.PositionOf(place.left).x,
+                      projection.PositionOf(place.right).x });
+  }
+  return names;
+}
+
 std::vector<SceneSurface>
 SurfacesNamed(const std::vector<SceneSurface> & surfaces, const std::string & pattern)
 {

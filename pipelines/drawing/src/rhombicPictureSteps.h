@@ -3,6 +3,7 @@
 
 #include "rhombicColourScale.h"
 #include "rhombicDicomCapture.h"
+#include "rhombicNamePlaces.h"
 #include "rhombicPictureIO.h"
 #include "rhombicRenderScan.h"
 #include "rhombicSheet.h"
@@ -53,6 +54,11 @@ MakePictureScene(const PictureSource & source,
 /** The surfaces as they are drawn in views: those without normals, as of STL files, get normals for shading. */
 std::vector<SceneSurface>
 ShadedSurfaces(const PictureScene & scene);
+
+/** Names of a scene's surfaces for a picture.
+ * \param places in the view that the projection is of */
+std::vector<PointedName>
+NamesOf(const PictureScene & scene, const std::vector<NamePlace> & places, const Projection & projection);
 
 /** The centre of a box. */
 Vector3

@@ -154,7 +154,10 @@ Margins
 LimitedMargins(const Annotations & annotations, const Projection & picture)
 {
   Margins margins = MarginsOf(annotations, picture.width, picture.height, picture.frame);
-  const Margins limits{ 0.2 * picture.width, 0.4 * picture.width, 0.2 * picture.height, 0.2 * picture.height };
+  const double beside = annotations.names.empty() ? 0.0 : 0.2 * picture.width;
+  const Margins limits{
+    0.2 * picture.width + beside, 0.4 * picture.width + beside, 0.2 * picture.height, 0.2 * picture.height
+  };
   for (const auto side : Sides)
   {
     margins.*side = std::min(margins.*side, limits.*side);
@@ -293,6 +296,29 @@ SetLegends(const RenderScanSettings & settings,
   }
 }
 
+/** Gives each view's annotations the names of the surfaces that are seen in it, if the settings have names. Returns the
+ * places of the names. */
+std::vector<std::vector<NamePlace>>
+SetNames(const RenderScanSettings & settings,
+         const PictureScene & source,
+         const Scene & scene,
+         const RenderSettings & render,
+         const std::vector<View> & views,
+         std::vector<Annotations> & annotations)
+{
+  std::vector<std::vector<NamePlace>> places(views.size());
+  if (settings.annotations.names)
+  {
+    const std::vector<Projection> planned = SurfaceRenderer::Plan(scene, render, views);
+    for (std::size_t n = 0; n < views.size(); ++n)
+    {
+      places[n] = FindNamePlaces(scene, planned[n]);
+      annotations[n].names = NamesOf(source, places[n], planned[n]);
+    }
+  }
+  return places;
+}
+
 std::vector<Picture>
 DrawViews(const RenderScanSettings & settings,
           const PictureScene & source,
@@ -308,17 +334,27 @@ DrawViews(const RenderScanSettings & settings,
   AddPlanes(settings, source, scene);
   Annotations ofAll = AnnotationsOf(settings, source, { BackgroundOf(settings.render), isTransparent ? 0.0 : 1.0 });
   ofAll.legend = LegendOf(settings, source, std::vector<bool>(source.rows.size(), true));
+  for (const LegendRow & row : source.rows)
+  {
+    if (settings.annotations.names)
+    {
+      ofAll.names.push_back({ row.name });
+    }
+  }
   std::vector<Annotations> annotations(views.size(), ofAll);
   RenderSettings render = FitToScene(settings, source, scene, views, annotations);
-  if (!ofAll.legend.empty())
+  std::vector<std::vector<NamePlace>> names(views.size());
+  if (!ofAll.legend.empty() || settings.annotations.names)
   {
     SetLegends(settings, source, scene, render, views, annotations);
+    names = SetNames(settings, source, scene, render, views, annotations);
     render = FitToScene(settings, source, scene, views, annotations);
   }
   if (settings.turntable == 0 && settings.onlyPicture > 0)
   {
     views = { views[settings.onlyPicture - 1] };
     annotations = { annotations[settings.onlyPicture - 1] };
+    names = { names[settings.onlyPicture - 1] };
   }
   std::vector<Picture> pictures;
   std::vector<RenderedView> drawn = renderer.Render(scene, render, views);
@@ -329,6 +365,7 @@ DrawViews(const RenderScanSettings & settings,
     unscaled.width = drawn[n].picture.width;
     unscaled.height = drawn[n].picture.height;
     annotations[n].scaleBar = annotations[n].scaleBar && drawn[n].projection.has_value();
+    annotations[n].names = NamesOf(source, names[n], drawn[n].projection.value_or(unscaled));
     Annotate(drawn[n].picture, drawn[n].projection.value_or(unscaled), annotations[n]);
     pictures.push_back(std::move(drawn[n].picture));
   }
@@ -578,6 +615,11 @@ CheckRenderScan(const RenderScanSettings & settings)
     CheckPicturePath(settings.picture, channels);
   }
   CheckSlices(settings);
+  if (settings.annotations.names && (settings.render.perspective || ViewsOf(settings).empty()))
+  {
+    throw Failure(FailureKind::Usage,
+                  "Names stand beside views in parallel projection; leave out names, or --perspective and --slice.");
+  }
   ParseWindow(settings.slice.window);
   const bool isOfFiles = !settings.source.surfaceFiles.empty();
   if (isOfFiles && !settings.planes.empty())

@@ -56,6 +56,7 @@ EmptySheet(const RenderSheetSettings & settings, std::size_t slices)
   sheet.slices.resize(slices);
   sheet.isLandscape = settings.isLandscape;
   sheet.pixelsPerInch = settings.pixelsPerInch;
+  sheet.hasNames = settings.names;
   return sheet;
 }
 
@@ -70,7 +71,8 @@ PlanSheet(const RenderSheetSettings & settings, const PictureScene & scene, cons
   sheet.meanUnit = scene.unit;
   sheet.provenance = scene.facts;
   sheet.provenance.push_back("made by: " + settings.provenance.software);
-  sheet.letters = scene.isOriented;
+  sheet.letters = settings.letters && scene.isOriented;
+  sheet.scaleBar = settings.scaleBar;
   sheet.isDark = settings.style == PictureStyle::Clinic;
   for (std::size_t n = 0; n < sheet.views.size(); ++n)
   {
@@ -102,32 +104,47 @@ PlanesOf(const RenderSheetSettings & settings)
 void
 DrawViews(const RenderSheetSettings & settings,
           const PictureScene & source,
-          const SheetPlaces & places,
+          const SheetPlaces & sheetPlaces,
           SurfaceRenderer & renderer,
           Sheet & sheet)
 {
-  if (places.views.empty())
+  if (sheetPlaces.views.empty())
   {
     return;
   }
   RenderSettings render;
-  render.width = static_cast<int>(std::lround(places.views.front().width));
-  render.height = static_cast<int>(std::lround(places.views.front().height));
+  render.width = static_cast<int>(std::lround(sheetPlaces.views.front().width));
+  render.height = static_cast<int>(std::lround(sheetPlaces.views.front().height));
   render.style = settings.style;
   render.background = PaperOf(sheet).colour;
   render.sameScale = true;
   Annotations annotations; // the sheet draws these over the views
   annotations.figure = false;
   annotations.textSize = PointsOfLetters * sheet.pixelsPerInch / PointsPerInch;
+  annotations.letters = sheet.letters;
+  annotations.scaleBar = sheet.scaleBar;
   render.margins = MarginsOf(annotations, render.width, render.height, settings.views.front().frame);
   render.maximumMemory = settings.source.scan.lattice.maximumMemory;
   Scene scene;
   scene.surfaces = ShadedSurfaces(source);
+  std::vector<std::vector<NamePlace>> places(settings.views.size());
+  if (settings.names)
+  {
+    const std::vector<Projection> planned = SurfaceRenderer::Plan(scene, render, settings.views);
+    for (std::size_t n = 0; n < planned.size(); ++n)
+    {
+      places[n] = FindNamePlaces(scene, planned[n]);
+      const std::vector<PointedName> names = NamesOf(source, places[n], planned[n]);
+      annotations.names.insert(annotations.names.end(), names.begin(), names.end());
+    }
+    render.margins = MarginsOf(annotations, render.width, render.height, settings.views.front().frame);
+  }
   auto drawn = renderer.Render(scene, render, settings.views);
   for (std::size_t n = 0; n < drawn.size(); ++n)
   {
     sheet.views[n].picture = std::move(drawn[n].picture);
     sheet.views[n].projection = drawn[n].projection.value();
+    sheet.views[n].names = NamesOf(source, places[n], sheet.views[n].projection);
   }
 }
 

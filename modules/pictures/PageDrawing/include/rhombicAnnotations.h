@@ -4,6 +4,7 @@
 #include "rhombicColourScale.h"
 #include "rhombicDrawing.h"
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,26 @@ struct ColouredOutline
   bool isClosed = true;
 };
 
+/** A name beside a picture, with a line to the surface that has it. */
+struct PointedName
+{
+  std::string name;
+  Colour colour{ 1.0, 1.0, 1.0 };
+  PicturePosition anchor{ 0.0, 0.0 }; ///< on the surface, in pixels of the picture
+  double seen = 0.0;                  ///< share of the picture in which the surface is seen
+  double left = 0.0;                  ///< ends of what is seen of the surface, in pixels of the picture
+  double right = 0.0;
+};
+
+/** Where a PointedName is drawn, in pixels of the picture. */
+struct PlacedName
+{
+  std::size_t number = 0;              ///< in Annotations::names
+  Rectangle box;                       ///< of the name, which is shortened if it is longer
+  bool isLeft = false;                 ///< of the scene
+  std::array<PicturePosition, 3> line; ///< from the anchor to the height of the name, and to the name
+};
+
 /** The letters, bars and lines that are drawn over a picture. */
 struct Annotations
 {
@@ -41,6 +62,7 @@ struct Annotations
   std::vector<LegendRow> legend;    ///< names and volumes in a column at the right
   std::optional<ColourScale> scale; ///< a bar of colours and numbers in a column at the right, in place of the legend
   std::vector<ColouredOutline> outlines;
+  std::vector<PointedName> names; ///< in columns at both sides of what they name; of too many, those that are seen most
   Ink background{ { 0.0, 0.0, 0.0 } }; ///< of the picture: text is white on a dark picture, else black
   double textSize = 0.0;               ///< pixels; 0: 1.8 % of the picture's shorter side, at least 11
 };
@@ -49,6 +71,11 @@ struct Annotations
  * column of the legend takes at most a fifth of the width. */
 Margins
 MarginsOf(const Annotations & annotations, int width, int height, const ViewFrame & frame);
+
+/** Where the names of a picture go, those at the left first, from top to bottom. Names do not overlap, and lines do not
+ * cross. */
+std::vector<PlacedName>
+PlaceNames(const Projection & projection, const Annotations & annotations);
 
 /** The colour of a line over a dark picture: of lightness 65 or more (CIE L*, D65), with the same hue and, as far as
  * sRGB has it, the same chroma. */

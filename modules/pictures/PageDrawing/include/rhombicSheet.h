@@ -20,6 +20,7 @@ struct SheetPicture
   double width = 0.0;                  ///< of a slice, in mm
   double height = 0.0;                 ///< of a slice, in mm
   std::vector<ColouredOutline> outlines;
+  std::vector<PointedName> names; ///< beside the scene of a view
 };
 
 /** \class Sheet
@@ -40,6 +41,7 @@ struct Sheet
   std::vector<std::string> provenance; ///< lines about scan, lattice and program; a colon ends the grey name of a value
   bool letters = true;                 ///< at the edges of the pictures
   bool scaleBar = true;                ///< in each view, and in slices
+  bool hasNames = false;               ///< views have room for the names of the rows beside the scene
   bool isLandscape = false;
   bool isDark = false;
   double pixelsPerInch = 200.0;

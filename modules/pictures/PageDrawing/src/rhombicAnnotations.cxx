@@ -3,6 +3,7 @@
 #include "rhombicColourBar.h"
 #include "rhombicFailure.h"
 #include "rhombicLegend.h"
+#include "rhombicNameColumns.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
@@ -50,6 +51,7 @@ struct Arrangement
   double letterWidth = 0.0; ///< of the wider of left and right
   Rectangle picture;        ///< the place without the legend's column
   Rectangle scene;          ///< the part of the picture without annotations
+  NameColumns names;
   LegendLayout legend;
   ColourBarLayout bar;
   double top = 0.0;    ///< of the legend or bar
@@ -124,6 +126,8 @@ Arrange(const Drawing & drawing, const Rectangle & place, const ViewFrame & fram
   a.scene.width = a.picture.Right() - side - a.scene.left;
   a.scene.top = isTopFree ? place.top : top + above;
   a.scene.height = (isBottomFree ? place.Bottom() : bottom - below) - a.scene.top;
+  a.names = TakeNameColumns(drawing, annotations.names, a.text, place.width, a.scene);
+  a.names.right.height -= annotations.figure ? FigureSize * size : 0.0;
   return a;
 }
 
@@ -149,6 +153,19 @@ DrawOutlines(Drawing & drawing, const Arrangement & a, double scale, const std::
     }
   }
   drawing.Unclip();
+}
+
+/** The names with anchors on the drawing. \a scale enlarges the picture's pixels to those of the drawing. */
+std::vector<PointedName>
+NamesOn(const Rectangle & place, double scale, std::vector<PointedName> names)
+{
+  for (PointedName & name : names)
+  {
+    name.anchor = { place.left + scale * name.anchor.x, place.top + scale * name.anchor.y };
+    name.left = place.left + scale * name.left;
+    name.right = place.left + scale * name.right;
+  }
+  return names;
 }
 
 /** Draws letters, the first one large, about a position: \a share 0 with their left end there, 0.5 their middle, 1
@@ -306,6 +323,15 @@ MarginsOf(const Annotations & annotations, int width, int height, const ViewFram
   return { scene.left, place.width - scene.Right(), scene.top, place.height - scene.Bottom() };
 }
 
+std::vector<PlacedName>
+PlaceNames(const Projection & projection, const Annotations & annotations)
+{
+  const Drawing measuring(1, 1);
+  const Rectangle place{ 0.0, 0.0, static_cast<double>(projection.width), static_cast<double>(projection.height) };
+  const Arrangement a = Arrange(measuring, place, projection.frame, annotations);
+  return PlaceInColumns(measuring, annotations.names, a.names);
+}
+
 Colour
 LineColourOnDark(const Colour & colour)
 {
@@ -345,6 +371,12 @@ DrawAnnotations(Drawing & drawing,
   const Arrangement a = Arrange(drawing, place, projection.frame, annotations);
   const double bottom = place.Bottom() - a.padding - a.footnoteHeight;
   DrawOutlines(drawing, a, place.width / projection.width, annotations.outlines);
+  const std::vector<PointedName> names = NamesOn(place, place.width / projection.width, annotations.names);
+  DrawNames(drawing,
+            names,
+            PlaceInColumns(drawing, names, a.names),
+            a.names.text,
+            InkOn(annotations.background).colour[0] > 0.5);
   if (annotations.figure)
   {
     const double size = FigureSize * a.text.size;

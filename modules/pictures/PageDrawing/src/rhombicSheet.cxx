@@ -141,8 +141,9 @@ private:
     annotations.scaleBar = hasBar;
     annotations.figure = false;
     annotations.outlines = picture.outlines;
+    annotations.names = picture.names;
     annotations.background = picture.background;
-    annotations.textSize = 7.0 * m_Point;
+    annotations.textSize = sheet::PointsOfPictures * m_Point;
     DrawAnnotations(m_Drawing, fitted, picture.projection, annotations);
   }
 

@@ -1,9 +1,11 @@
 #include "rhombicSheetPlan.h"
 
 #include "rhombicFailure.h"
+#include "rhombicNameColumns.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace rhombic
@@ -20,8 +22,9 @@ constexpr double WideTableShare = 0.4;     // of a portrait page's height, for r
 constexpr double LargestTableShare = 0.47; // for others; longer tables go on on further pages
 constexpr double RowPitch = 4.5;
 constexpr double TightRowPitch = 3.6;
-constexpr double RowTextShare = 0.62;      // of the row pitch
-constexpr double SmallestView = 40.0;      // height
+constexpr double RowTextShare = 0.62; // of the row pitch
+constexpr double SmallestView = 40.0; // height
+constexpr double SmallestViewWithNames = 52.0;
 constexpr double UsualView = 80.0;         // height
 constexpr double SmallestSlice = 35.0;     // width without the room for letters, of tall slices
 constexpr double PreferenceOfOneRow = 0.9; // two rows fill the page better
@@ -68,18 +71,39 @@ Grid(const Rectangle & area, std::size_t count, std::size_t columns, double heig
   return places;
 }
 
-/** The height of a view whose scene is as wide as the letters leave room. */
+/** The width of the letters and names at each side of a view. */
 double
-HeightFor(double width, double aspect)
+RoomBeside(const Sheet & s)
 {
-  return aspect * (width - 2.0 * RoomForLetters) + 2.0 * RoomForLetters;
+  if (!s.hasNames)
+  {
+    return RoomForLetters;
+  }
+  std::vector<PointedName> names;
+  for (const LegendRow & row : s.rows)
+  {
+    names.push_back({ row.name });
+  }
+  TextStyle style;
+  style.size = PointsOfPictures * s.pixelsPerInch / 72.0;
+  Rectangle scene;
+  TakeNameColumns(Drawing(1, 1), names, style, std::numeric_limits<double>::infinity(), scene);
+  return RoomForLetters + scene.left * 25.4 / s.pixelsPerInch;
+}
+
+/** The height of a view whose scene is as wide as letters and names leave room. */
+double
+HeightFor(double width, double beside, const Sheet & s)
+{
+  const double height = s.viewAspect * std::max(0.0, width - 2.0 * beside) + 2.0 * RoomForLetters;
+  return std::max(height, s.hasNames ? SmallestViewWithNames : 0.0);
 }
 
 /** The width of the scene in a view. */
 double
-SceneWidthIn(double width, double height, double aspect)
+SceneWidthIn(double width, double height, double beside, double aspect)
 {
-  return std::min(width - 2.0 * RoomForLetters, (height - 2.0 * RoomForLetters) / aspect);
+  return std::min(width - 2.0 * beside, (height - 2.0 * RoomForLetters) / aspect);
 }
 
 /** Places the views in one row or two at the top of an area. Returns the bottom edge of the views and captions. */
@@ -92,12 +116,13 @@ PlaceViews(const Sheet & s, const Rectangle & area, std::vector<Rectangle> & pla
     return area.top;
   }
   const double available = area.height - CaptionHeight - Gap;
+  const double beside = RoomBeside(s);
   const double width = (area.width - Gap * 3.0) / 4.0;
-  const double height = std::max(SmallestView, std::min(available, HeightFor(width, s.viewAspect)));
+  const double height = std::max(SmallestView, std::min(available, HeightFor(width, beside, s)));
   const double halfWidth = (area.width - Gap) / 2.0;
-  const double halfHeight = std::min(0.5 * (available - CaptionHeight - 0.5 * Gap), HeightFor(halfWidth, s.viewAspect));
-  const double scale = SceneWidthIn(width, height, s.viewAspect);
-  const double halfScale = SceneWidthIn(halfWidth, halfHeight, s.viewAspect);
+  const double halfHeight = std::min(0.5 * (available - CaptionHeight - 0.5 * Gap), HeightFor(halfWidth, beside, s));
+  const double scale = SceneWidthIn(width, height, beside, s.viewAspect);
+  const double halfScale = SceneWidthIn(halfWidth, halfHeight, beside, s.viewAspect);
   const bool isOneRow = count < 3 || PreferenceOfOneRow * scale >= halfScale;
   places = isOneRow ? Grid(area, count, std::max<std::size_t>(count, 2), height) : Grid(area, count, 2, halfHeight);
   return places.back().Bottom() + CaptionHeight + Gap;

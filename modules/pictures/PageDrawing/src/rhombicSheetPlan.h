@@ -50,6 +50,8 @@ constexpr double ProvenanceIndent = 22.0; ///< of values behind their names
 constexpr double NameColumn = 43.0;       ///< with the swatch
 constexpr double FigureColumn = 15.0;
 constexpr double RoomForLetters = 7.0; ///< at each edge of a picture
+
+constexpr double PointsOfPictures = 7.0; ///< size of the text over pictures, in points
 } // namespace sheet
 
 /** A line of provenance as name and value. The name is empty when there is no colon. */
