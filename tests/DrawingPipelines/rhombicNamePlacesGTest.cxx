@@ -121,6 +121,27 @@ TEST(NamePlaces, TranslucentSurfacesAreNamedWhereNothingElseIsSeen)
   }
 }
 
+/** A ball in a ball, cut through the middle: the face of the cut hides the ball behind it. */
+TEST(NamePlaces, OnCutFacesTheInnermostSurfaceCounts)
+{
+  Scene scene{
+    { SurfaceOf({ { 0, 0, 0 }, 40 }, 0.3), SurfaceOf({ { 10, 0, 0 }, 10 }), SurfaceOf({ { -20, 20, 0 }, 8 }) },
+    { { { 0, 0, 0 }, { 0, -1, 0 }, {} } },
+    {}
+  };
+  ASSERT_EQ(FindNamePlaces(scene, FrontPicture()).size(), 3u);
+  rhombic::ScenePlane face;
+  face.picture = rhombic::Picture(800, 400);
+  face.projection = FrontPicture();
+  scene.planes.push_back(face);
+  const std::vector<NamePlace> places = FindNamePlaces(scene, FrontPicture());
+  ASSERT_EQ(places.size(), 2u);
+  EXPECT_EQ(places[0].surface, 0u);
+  EXPECT_EQ(places[1].surface, 1u);
+  EXPECT_NEAR(places[1].point[0], 10, 1);
+  EXPECT_GT(std::hypot(places[0].point[0] - 10, places[0].point[2]), 10);
+}
+
 /** Balls in disorder: along the ray through an anchor, the exact ball of that number is the first. */
 TEST(NamePlaces, AnchorsLieOnTheirSurfaces)
 {

@@ -21,8 +21,9 @@ struct NamePlace
 
 /** For each surface that is seen in a view, the middle of the largest disk, nearly, in which it alone is seen. A pixel
  * is of the opaque surface in front; if there is none, of the translucent one that begins last: an organ in its skin.
- * Surfaces without a place for a dot are left out, and so are those seen only behind or before others. The pictures of
- * a scene's planes do not count. Time is linear in the triangles, and does not depend on the size of the picture. */
+ * On the pictures of planes, as on cut faces, it is of the innermost surface that is cut there. Surfaces without a
+ * place for a dot are left out, and so are those seen only behind or before others. Time is linear in the triangles,
+ * and does not depend on the size of the picture. */
 std::vector<NamePlace>
 FindNamePlaces(const Scene & scene, const Projection & projection);
 
