@@ -249,6 +249,18 @@ TEST_F(RenderCommand, AReportMakesItsPictureAgain)
   EXPECT_NE(outcome.errors.find("by more than 2 of 255"), std::string::npos) << outcome.errors;
 }
 
+TEST_F(RenderCommand, InteractivePagesTellWhetherAFaceIsInThem)
+{
+  const std::string command = "render " + phantomScan + " --labels " + phantomLabels;
+  RunWell(command + " --label brain -o head.html");
+  EXPECT_NE(Bytes("head.html").find("but the head is, and a face can be recognised"), std::string::npos);
+  RunWell(command + " --label liver -o body.html");
+  EXPECT_NE(Bytes("body.html").find("if the head is in the scan, the face can be recognised"), std::string::npos);
+  RunWell(command + " --label liver --no-slices -o liver.html");
+  EXPECT_NE(Bytes("liver.html").find("privacy: no name"), std::string::npos);
+  EXPECT_EQ(Bytes("liver.html").find("face can be recognised"), std::string::npos);
+}
+
 TEST_F(RenderCommand, ReportsHoldSettingsAndNothingOfThePatient)
 {
   fs::create_directories(m_Folder.Path() / "Doe");

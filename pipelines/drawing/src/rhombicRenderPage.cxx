@@ -118,32 +118,26 @@ TitleOf(const RenderPageSettings & settings, const PictureScene & scene)
   return settings.title.empty() ? scene.examination + ": " + shown : settings.title;
 }
 
-/** Whether some words stand in a text, in lower case. */
-bool
-HasOneOf(const std::string & text, const std::vector<std::string> & words)
-{
-  return std::any_of(
-    words.begin(), words.end(), [&text](const std::string & word) { return text.find(word) != std::string::npos; });
-}
-
 /** A sentence about what tells the patient from others: whether the face can be recognised follows from the part of the
  * body that DICOM names, and from the names of surfaces; where neither tells, the sentence leaves it open. */
 std::string
 DescribePrivacy(const PictureScene & scene, bool hasSlices)
 {
-  const std::vector<std::string> headWords{ "head",  "skull", "brain",  "face",  "facial", "orbit",
-                                            "sinus", "jaw",   "mandib", "whole", "eye",    "cranio" };
-  const std::vector<std::string> skinWords{
-    "skin", "body", "outline", "head", "face", "facial", "soft tissue", "scalp"
+  const std::vector<std::string> headWords{ "head", "skull", "brain", "face",     "facial", "orbit",
+                                            "eye",  "eyes",  "jaw",   "mandible", "whole" };
+  const std::vector<std::string> skinWords{ "skin", "body", "outline", "head", "face", "facial", "scalp" };
+  const auto hasOneOf = [](const std::string & text, const std::vector<std::string> & words) {
+    return std::any_of(words.begin(), words.end(), [padded = " " + text + " "](const std::string & word) {
+      return padded.find(" " + word + " ") != std::string::npos;
+    });
   };
   const std::string examination = LowerCase(scene.examination);
-  bool hasHead = HasOneOf(examination, headWords);
+  bool hasHead = hasOneOf(examination, headWords);
   bool hasSkin = hasSlices;
   for (const LegendRow & row : scene.rows)
   {
-    const std::string name = LowerCase(row.name);
-    hasHead = hasHead || HasOneOf(name, headWords);
-    hasSkin = hasSkin || HasOneOf(name, skinWords);
+    hasHead = hasHead || hasOneOf(LowerCase(row.name), headWords);
+    hasSkin = hasSkin || hasOneOf(LowerCase(row.name), skinWords);
   }
   const bool isOtherPart = examination.find(' ') != std::string::npos; // "CT chest"
   const std::string none = "privacy: no name, number or date of the patient is in this file";
