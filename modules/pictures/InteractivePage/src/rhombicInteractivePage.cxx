@@ -229,18 +229,24 @@ MakerOf(const PageContent & content)
 void
 CodeSurfaces(std::uintmax_t room, const Events & events, PageMeshMaker & maker, ReducedParts & parts)
 {
-  const auto forRoom = std::max(FewestTriangles, static_cast<std::size_t>(static_cast<double>(room) / BytesOfTriangle));
-  const auto share = static_cast<std::size_t>(ShareOfTriangles * static_cast<double>(maker.GetNumberOfTriangles()));
-  const std::size_t triangles = std::min(forRoom, std::max(FewestTriangles, share));
-  for (double error = ErrorForShare;
-       error <= LargestError && (error == ErrorForShare || maker.GetNumberOfTriangles() > forRoom);
-       error *= 2.0)
+  const auto triangles = static_cast<double>(maker.GetNumberOfTriangles());
+  double target = std::min(static_cast<double>(room) / BytesOfTriangle, ShareOfTriangles * triangles);
+  for (double error = ErrorForShare; error <= LargestError; error *= 2.0)
   {
-    maker.Simplify(triangles, error, [&events](double done) { events.Progress("simplifying surfaces", done); });
+    maker.Simplify(std::max(FewestTriangles, static_cast<std::size_t>(target)), error, [&events](double done) {
+      events.Progress("simplifying surfaces", done);
+    });
+    events.Progress("coding surfaces", 0.0);
+    parts.mesh = maker.Make();
+    parts.surfaceBlocks = DataBlock("points", parts.mesh.pointBytes) + DataBlock("triangles", parts.mesh.triangleBytes);
+    const auto taken = static_cast<double>(parts.surfaceBlocks.size());
+    if (taken <= static_cast<double>(room) || !parts.mesh.refusal.empty())
+    {
+      return;
+    }
+    constexpr double safety = 0.98; // fewer triangles need more bytes each
+    target = safety * static_cast<double>(room) / taken * static_cast<double>(parts.mesh.triangles);
   }
-  events.Progress("coding surfaces", 0.0);
-  parts.mesh = maker.Make();
-  parts.surfaceBlocks = DataBlock("points", parts.mesh.pointBytes) + DataBlock("triangles", parts.mesh.triangleBytes);
 }
 
 void
