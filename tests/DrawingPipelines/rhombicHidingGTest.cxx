@@ -131,4 +131,36 @@ TEST(Hiding, TheBestViewIsTheFirstInWhichMostIsSeen)
   EXPECT_EQ(rhombic::FindBestView(scene, isFocus).name, "anterior");
 }
 
+using Seen = std::vector<bool>;
+
+TEST(SeenSurfaces, OpaqueOnesHideAndTranslucentOnesDoNot)
+{
+  Scene scene; // seen from the front, the small box is behind the large one
+  scene.surfaces = { Box("small", { -1, 8, -1 }, { 1, 9, 1 }),
+                     Cube("large", 5.0),
+                     Cube("inside", 3.0),
+                     Box("beside", { 6, 8, 6 }, { 7, 9, 7 }, 0.5) };
+  EXPECT_EQ(FindSeenSurfaces(scene, FrontRays()), (Seen{ false, true, false, true }));
+  scene.surfaces[1].opacity = 0.3;
+  EXPECT_EQ(FindSeenSurfaces(scene, FrontRays()), (Seen{ false, true, true, true })) << "the inner one hides";
+  scene.surfaces[2].opacity = 0.3;
+  EXPECT_EQ(FindSeenSurfaces(scene, FrontRays()), (Seen{ true, true, true, true }));
+}
+
+TEST(SeenSurfaces, CutsOpenTheSurfacesThatTheyName)
+{
+  Scene scene;
+  scene.surfaces = { Cube("shell", 5.0), Cube("inside", 3.0) };
+  EXPECT_EQ(FindSeenSurfaces(scene, FrontRays()), (Seen{ true, false }));
+  scene.cuts = { { { 0, 0, 0 }, { 0, -1, 0 }, { "shell" } } }; // its front is removed
+  EXPECT_EQ(FindSeenSurfaces(scene, FrontRays()), (Seen{ true, true }));
+}
+
+TEST(SeenSurfaces, OutsideThePictureNothingIsSeen)
+{
+  Scene scene;
+  scene.surfaces = { Cube("here", 5.0), Box("far", { 100, -5, -5 }, { 110, 5, 5 }) };
+  EXPECT_EQ(FindSeenSurfaces(scene, FrontRays()), (Seen{ true, false }));
+}
+
 } // namespace

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace rhombic
@@ -16,6 +18,9 @@ constexpr int RaysAlongSide = 256;
 constexpr double EnclosedShare = 0.9; // of the rays through a surface
 constexpr double HidingShare = 0.005; // of the rays through the focus
 constexpr double LikeShare = 0.05;    // views whose seen areas differ by less are alike
+
+constexpr int LongerSideOfSeen = 600; // pixels
+constexpr int FewestSeenPixels = 3;
 
 constexpr float Nothing = std::numeric_limits<float>::infinity();
 
@@ -45,6 +50,17 @@ RaysThrough(const LPSBox & box, const ViewFrame & frame)
   rays.width = rays.height = RaysAlongSide;
   rays.pixelSize = std::max(longest, 1e-6) / RaysAlongSide;
   return rays;
+}
+
+/** The projection in the picture with \a LongerSideOfSeen pixels along its longer side. */
+Projection
+Reduced(Projection projection)
+{
+  const double scale = static_cast<double>(LongerSideOfSeen) / std::max({ projection.width, projection.height, 1 });
+  projection.pixelSize /= scale;
+  projection.width = std::max(1, static_cast<int>(std::lround(scale * projection.width)));
+  projection.height = std::max(1, static_cast<int>(std::lround(scale * projection.height)));
+  return projection;
 }
 
 Vector3
@@ -226,6 +242,39 @@ FindDepths(const SceneSurface & item, const std::vector<ClipPlane> & cuts, const
       });
   }
   return depths;
+}
+
+std::vector<bool>
+FindSeenSurfaces(const Scene & scene, const Projection & projection)
+{
+  const Projection rays = Reduced(projection);
+  const std::size_t count = scene.surfaces.size();
+  std::vector<float> nearest(static_cast<std::size_t>(rays.width) * static_cast<std::size_t>(rays.height), Nothing);
+  std::vector<std::size_t> front(nearest.size(), count); // the opaque surface there
+  for (std::size_t n = 0; n < count; ++n)
+  {
+    const bool isOpaque = scene.surfaces[n].opacity >= 1.0;
+    const auto depths = isOpaque ? FindDepths(scene.surfaces[n], scene.cuts, rays) : std::vector<float>();
+    for (std::size_t pixel = 0; pixel < depths.size(); ++pixel)
+    {
+      if (depths[pixel] < nearest[pixel])
+      {
+        nearest[pixel] = depths[pixel];
+        front[pixel] = n;
+      }
+    }
+  }
+  std::vector<bool> isSeen;
+  for (std::size_t n = 0; n < count; ++n)
+  {
+    const bool isOpaque = scene.surfaces[n].opacity >= 1.0;
+    const auto depths = isOpaque ? std::vector<float>() : FindDepths(scene.surfaces[n], scene.cuts, rays);
+    const int pixels =
+      isOpaque ? static_cast<int>(std::count(front.begin(), front.end(), n))
+               : std::inner_product(depths.begin(), depths.end(), nearest.begin(), 0, std::plus<>(), std::less<>());
+    isSeen.push_back(pixels >= FewestSeenPixels);
+  }
+  return isSeen;
 }
 
 std::vector<std::size_t>

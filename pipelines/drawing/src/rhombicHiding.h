@@ -19,6 +19,12 @@ namespace rhombic
 std::vector<float>
 FindDepths(const SceneSurface & item, const std::vector<ClipPlane> & cuts, const Projection & rays);
 
+/** Which surfaces of a scene can be seen in a view, in their order: those that are in front in at least three pixels of
+ * a picture with 600 pixels along its longer side. Opaque surfaces hide what is behind them, translucent ones hide
+ * nothing; of several surfaces in one place the first is seen. What cuts remove is not there. */
+std::vector<bool>
+FindSeenSurfaces(const Scene & scene, const Projection & projection);
+
 /** The numbers, ascending, of the opaque surfaces that hide another surface from every side: in each of the six
  * standard views, nine of ten rays through that surface meet the first one before. */
 std::vector<std::size_t>

@@ -3,10 +3,10 @@
 #include "rhombicColourSurfaces.h"
 #include "rhombicFailure.h"
 #include "rhombicGreyWindow.h"
+#include "rhombicHiding.h"
 #include "rhombicLightbox.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicPictureSteps.h"
-#include "rhombicSeenSurfaces.h"
 #include "rhombicSurfaceRenderer.h"
 #include "rhombicWording.h"
 

@@ -921,6 +921,59 @@ TEST(LabelSurfaces, OfAPartOfTheMapAreThoseOfTheWholeMap)
   EXPECT_EQ(part[2].scene.surface->GetNumberOfTriangles(), 0);
 }
 
+/** The corners of a surface's triangles, whichever way they face. */
+std::set<std::array<itk::TriangleSurface::PointType, 3>>
+CornersOfTriangles(const itk::TriangleSurface & surface)
+{
+  std::set<std::array<itk::TriangleSurface::PointType, 3>> corners;
+  for (const auto & [a, b, c] : surface.GetTriangles())
+  {
+    std::array<itk::TriangleSurface::PointType, 3> triangle{ surface.GetPoints()[a],
+                                                             surface.GetPoints()[b],
+                                                             surface.GetPoints()[c] };
+    std::sort(triangle.begin(), triangle.end());
+    corners.insert(triangle);
+  }
+  return corners;
+}
+
+TEST(LabelSurfaces, ForRenderingAreAtTheirPlacesInFewerTriangles)
+{
+  rhombic::LabelMesh mesh = rhombic::LabelsToWalls( // two halves of a ball around a smaller ball
+    MakeMap(40,
+            [](const Point & point) {
+              const double radius = point.GetVectorFromOrigin().GetNorm();
+              return radius < 8.0 ? 3 : radius < 16.0 ? (point[0] < 0.0 ? 1 : 2) : 0;
+            }),
+    {},
+    {});
+  rhombic::ExtractSurfaces(mesh);
+  constexpr double distance = 0.05;
+  const auto fewer = rhombic::SimplifySurfacesForRendering(mesh, distance);
+  ASSERT_EQ(fewer.size(), 3);
+  for (std::size_t n = 0; n < fewer.size(); ++n)
+  {
+    const itk::TriangleSurface & whole = *mesh.labels[n].scene.surface;
+    EXPECT_TRUE(ComputeTriangleSurfaceTopology(*fewer[n]).IsWatertight());
+    EXPECT_LT(2 * fewer[n]->GetNumberOfTriangles(), whole.GetNumberOfTriangles());
+    EXPECT_EQ(fewer[n]->GetNormals().size(), fewer[n]->GetNumberOfPoints());
+    EXPECT_NEAR(ComputeTriangleSurfaceVolume(*fewer[n]) / ComputeTriangleSurfaceVolume(whole), 1.0, 0.01);
+    const itk::TriangleTree tree(*fewer[n]);
+    double farthest = 0.0;
+    for (const auto & point : whole.GetPoints())
+    {
+      farthest = std::max(farthest, std::sqrt(tree.FindClosestPoint({ point[0], point[1], point[2] }).squaredDistance));
+    }
+    EXPECT_LT(farthest, 3.0 * distance) << n;
+  }
+  const auto first = CornersOfTriangles(*fewer[0]);
+  const auto second = CornersOfTriangles(*fewer[1]);
+  for (const auto & triangle : CornersOfTriangles(*fewer[2]))
+  {
+    EXPECT_EQ(first.count(triangle) + second.count(triangle), 1); // the same walls from both sides
+  }
+}
+
 TEST(LabelSurfaces, VoxelsOfLabelsHavePlaces)
 {
   const LabelMap map = MakeMap(12, [](const Point & point) { return point[0] < 0.0 ? 0 : point[2] < 2.0 ? 4 : 9; });

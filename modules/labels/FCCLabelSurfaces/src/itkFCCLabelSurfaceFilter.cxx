@@ -142,6 +142,8 @@ ForEachTetrahedraRow(const FCCLabelPlane & plane, const FCCLabelPlane & next, co
   }
 }
 
+constexpr double SingularPivot = 1e-9; // weights are float32 of the size of 1
+
 /** Values of the sites of a simplex. */
 template <typename TValue, std::size_t VSize>
 using BySite = std::array<TValue, VSize>;
@@ -152,7 +154,6 @@ template <std::size_t VSize>
 bool
 Solve(std::array<std::array<double, VSize + 1>, VSize> & rows, BySite<double, VSize> & solution)
 {
-  constexpr double singular = 1e-9; // weights are float32 of the size of 1
   for (std::size_t column = 0; column < VSize; ++column)
   {
     std::size_t pivot = column;
@@ -160,7 +161,7 @@ Solve(std::array<std::array<double, VSize + 1>, VSize> & rows, BySite<double, VS
     {
       pivot = std::abs(rows[row][column]) > std::abs(rows[pivot][column]) ? row : pivot;
     }
-    if (!(std::abs(rows[pivot][column]) > singular))
+    if (!(std::abs(rows[pivot][column]) > SingularPivot))
     {
       return false;
     }
@@ -191,6 +192,14 @@ BySite<double, VSize>
 FindTie(const BySite<BySite<double, VSize>, VSize> & weights)
 {
   constexpr double least = FCCLabelSurfaceFilter::MinimumFraction;
+  if constexpr (VSize == 2) // most points
+  {
+    const double first = weights[0][0] - weights[0][1]; // the lead of the first label at the first site
+    const double second = weights[1][0] - weights[1][1];
+    const double share = std::abs(first - second) > SingularPivot ? first / (first - second) : 0.5; // of the second
+    const double inEdge = std::clamp(share, least, 1.0 - least);
+    return { 1.0 - inEdge, inEdge };
+  }
   constexpr std::size_t last = VSize - 1;
   constexpr double middle = 1.0 / VSize;
   std::array<std::array<double, VSize + 1>, VSize> rows{};

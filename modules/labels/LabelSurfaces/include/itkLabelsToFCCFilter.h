@@ -25,7 +25,8 @@ namespace itk
  *
  * Where voxels are more than 1.5 times as long along an axis as along the shortest, the map is refined along it to
  * voxels that are nearly cubes, and the fields between slices follow from the slices around them. The lattice has
- * Density sites for each of these voxels. Its direction is the map's; tilted, sheared and unevenly spaced slices are
+ * Density sites for each of these voxels, along an axis refined to four and more half as many: there fields are as
+ * smooth as the slices allow. Its direction is the map's; tilted, sheared and unevenly spaced slices are
  * used at their true positions, as by CartesianToFCCImageFilter. It reaches two voxels beyond the map, where all is 0:
  * labels that reach the map's border are closed at the outer faces of its voxels.
  *
@@ -39,14 +40,8 @@ namespace itk
  * default density, 19 at density 2 and none at density 4 (means of 24 pairs in random directions). Pieces of a label
  * stay apart if they have labels of their own in one group (SetGroups()).
  *
- * Mean distance from the truth in mm and mean angle of facets in degrees, for eight balls of radius 8.6 to 10 mm that
- * touch one another, of 1 mm voxels in slices of 1, 3 and 6 mm (rhombic-label-walls):
- *
- *     method                                                  1 mm          3 mm          6 mm
- *     this filter and FCCLabelSurfaceFilter                   .06   4.6     .14   7.7     .20   8.7
- *     the same and RelaxLabelWalls() by half a voxel               .06   4.2     .14   7.4     .20   8.4
- *     a field and an isosurface for each label alone          .05   2.5     .26  10.4     .82  30.2
- *     vtkDiscreteFlyingEdges3D, vtkWindowedSincPolyDataFilter .06   3.4     .23   7.5     .52  12.5
+ * `rhombic-label-walls` measures distances from the truth and angles of facets, beside a field and an isosurface for
+ * each label alone and VTK; `rhombic-thick-labels` does so for walls that are smoothed.
  *
  * The outputs have the same bytes for any number of threads. Each field is made in the bounding box of its label and
  * near the label's border only (AntiAliasMaskImageFilter). Labels are made side by side, each on one thread, while

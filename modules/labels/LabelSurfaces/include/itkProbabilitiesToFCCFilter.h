@@ -21,12 +21,7 @@ namespace itk
  * are closed at the outer faces of the voxels there, less probable ones up to three parts of a voxel further inside.
  *
  * All inputs need the same grid. It may be sheared; unevenly spaced slices are refused. Volumes of labels are not
- * corrected. Mean distance from the truth in mm and mean angle of facets in degrees, for the balls of
- * LabelsToFCCFilter, where probabilities are the shares of voxels that balls fill (rhombic-label-walls):
- *
- *     method                                                  1 mm          3 mm          6 mm
- *     this filter and FCCLabelSurfaceFilter                   .06   8.0     .11   9.6     .22  11.6
- *     the same and RelaxLabelWalls() by half a voxel               .06   4.2     .11   6.9     .22   9.1
+ * corrected. `rhombic-label-walls` measures distances from the truth and angles of facets.
  *
  * The outputs have the same bytes for any number of threads. Inputs are resampled one after another. Memory: 18 bytes a
  * site, 12 bytes a voxel, and 8 bytes for each site and label with a probability between 0 and 1.

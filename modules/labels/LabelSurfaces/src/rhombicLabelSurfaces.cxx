@@ -254,26 +254,40 @@ SetNormals(itk::TriangleSurface & surface)
   }
 }
 
-/** The wall between two labels. */
+/** The wall between two labels, or its triangles at the curves where it meets others. */
 struct Wall
 {
   itk::LabelWalls::LabelPairType labels;
+  bool isAtCurve;
   itk::TriangleSurface::TrianglesContainer triangles;
 };
 
-/** The wall of each pair of labels, its triangles in the order of the mesh. */
+/** The wall of each pair of labels in two parts, their triangles in the order of the mesh. */
 std::vector<Wall>
 DivideIntoSheets(const itk::LabelWalls & walls)
 {
-  std::map<itk::LabelWalls::LabelPairType, std::size_t> places;
-  std::vector<Wall> sheets;
-  for (std::size_t n = 0; n < walls.GetNumberOfTriangles(); ++n)
+  using PairType = itk::LabelWalls::LabelPairType;
+  const auto & pairs = walls.GetTriangleLabels();
+  std::vector<PairType> pairOfPoint(walls.GetNumberOfPoints()); // of its last triangle
+  std::vector<std::uint8_t> isOnCurve(walls.GetNumberOfPoints());
+  for (std::size_t n = 0; n < pairs.size(); ++n)
   {
-    const auto & pair = walls.GetTriangleLabels()[n];
-    const auto [place, isNew] = places.try_emplace(pair, sheets.size());
+    for (const std::uint32_t point : walls.GetTriangles()[n])
+    {
+      isOnCurve[point] |= pairOfPoint[point] != PairType{} && pairOfPoint[point] != pairs[n] ? 1 : 0;
+      pairOfPoint[point] = pairs[n];
+    }
+  }
+  std::map<std::pair<PairType, bool>, std::size_t> places;
+  std::vector<Wall> sheets;
+  for (std::size_t n = 0; n < pairs.size(); ++n)
+  {
+    const auto & [a, b, c] = walls.GetTriangles()[n];
+    const bool isAtCurve = (isOnCurve[a] | isOnCurve[b] | isOnCurve[c]) != 0;
+    const auto [place, isNew] = places.try_emplace({ pairs[n], isAtCurve }, sheets.size());
     if (isNew)
     {
-      sheets.push_back({ pair, {} });
+      sheets.push_back({ pairs[n], isAtCurve, {} });
     }
     sheets[place->second].triangles.push_back(walls.GetTriangles()[n]);
   }
@@ -301,7 +315,7 @@ JoinSheets(const itk::LabelWalls & walls,
   const auto surface = itk::TriangleSurface::New();
   surface->GetPoints() = whole.GetPoints();
   surface->GetNormals() = whole.GetNormals();
-  for (const auto & [labels, triangles] : sheets)
+  for (const auto & [labels, isAtCurve, triangles] : sheets)
   {
     if (labels[0] != label && labels[1] != label)
     {
@@ -492,8 +506,11 @@ SimplifySurfacesForRendering(const LabelMesh & mesh, double distance)
   {
     simplified.push_back(DivideIntoSheets(*walls));
     ForEachOnThreads(simplified.back().size(), [&](std::size_t n) {
-      auto & triangles = simplified.back()[n].triangles;
-      triangles = itk::SimplifySheetForRendering(walls->GetPoints(), triangles, distance);
+      Wall & sheet = simplified.back()[n];
+      if (!sheet.isAtCurve)
+      {
+        sheet.triangles = itk::SimplifySheetForRendering(walls->GetPoints(), sheet.triangles, distance);
+      }
     });
   }
   std::vector<itk::TriangleSurface::ConstPointer> surfaces(mesh.labels.size());
