@@ -117,7 +117,7 @@ TEST(Hiding, WhatLiesBeforeTheFocusHidesItInThatView)
   EXPECT_EQ(rhombic::FindHiding(scene, isFocus, { views[0], views[1] }), (Numbers{ 1, 2, 3 }));
 }
 
-TEST(Hiding, TheBestViewIsTheFirstInWhichMostIsSeen)
+TEST(Hiding, TheBestViewIsTheFirstInWhichLeastIsHidden)
 {
   const std::vector<bool> isFocus{ true, false, false };
   Scene scene{ { Cube("focus", 5), Box("front", { -5, -20, -5 }, { 5, -16, 5 }), Cube("skin", 30, 0.2) }, {}, {} };

@@ -92,14 +92,14 @@ struct PictureSettings
 /** From a scan or surface files to pictures. */
 struct RenderScanSettings : PictureSettings
 {
-  RenderSettings render;            ///< its memory is the source's, its margins those of the annotations
-  std::vector<View> views{ {} };    ///< of the surfaces
-  std::string focus;                ///< pattern of the surfaces that the picture is fitted to; empty: all
-  double ghost = 0.15;              ///< opacity of what hides the focus; 0: left out; 1: as it is
-  bool choosesView = false;         ///< with a focus: in place of the views, the one standard view in which most of the
-                                    ///< focus is seen
-  std::vector<CutRequest> cuts;     ///< at most 6; cut faces have the scan's greys
-  std::vector<std::string> uncut;   ///< patterns of surfaces that are not cut
+  RenderSettings render;          ///< its memory is the source's, its margins those of the annotations
+  std::vector<View> views{ {} };  ///< of the surfaces
+  std::string focus;              ///< pattern of the surfaces that the picture is fitted to; empty: all
+  double ghost = 0.15;            ///< opacity of what hides the focus; 0: left out; 1: as it is
+  bool choosesView = false;       ///< with a focus: in place of the views, the one standard view in which the smallest
+                                  ///< share of the focus is hidden, and not a small part of it is seen
+  std::vector<CutRequest> cuts;   ///< at most 6; cut faces have the scan's greys
+  std::vector<std::string> uncut; ///< patterns of surfaces that are not cut
   std::vector<PlaneRequest> planes; ///< slices that stand in the scene
   AnnotationSettings annotations;
   std::optional<ColourBy> colourBy; ///< of the surfaces in views, in place of their colours; with a bar of colours in

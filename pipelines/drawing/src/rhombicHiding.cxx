@@ -17,7 +17,8 @@ namespace
 constexpr int RaysAlongSide = 256;
 constexpr double EnclosedShare = 0.9; // of the rays through a surface
 constexpr double HidingShare = 0.005; // of the rays through the focus
-constexpr double LikeShare = 0.05;    // views whose seen areas differ by less are alike
+constexpr double LikeShare = 0.05;    // views whose shares differ by less are alike
+constexpr double LeastArea = 0.5;     // of the largest that a view shows: others look along the focus
 
 constexpr int LongerSideOfSeen = 600; // pixels
 constexpr int FewestSeenPixels = 3;
@@ -343,25 +344,38 @@ FindHiding(const Scene & scene, const std::vector<bool> & isFocus, const std::ve
 const View &
 FindBestView(const Scene & scene, const std::vector<bool> & isFocus)
 {
+  struct Candidate
+  {
+    const View * view;
+    double hiddenShare;
+    double seenArea; // in mm^2
+  };
   const LPSBox box = BoxOfFocus(scene, isFocus);
-  const View * best = nullptr;
-  double largest = -1.0; // seen area, in mm^2
+  std::vector<Candidate> candidates;
+  double largestArea = 0.0;
   for (const View & view : StandardViews())
   {
     const Projection rays = RaysThrough(box, view.frame);
     const std::vector<float> focus = FindNearest(scene, rays, [&isFocus](std::size_t n) { return isFocus[n]; });
     const std::vector<float> front =
       FindNearest(scene, rays, [&](std::size_t n) { return !isFocus[n] && scene.surfaces[n].opacity == 1.0; });
+    const double share = HiddenShare(front, focus);
     const auto met =
       static_cast<double>(std::count_if(focus.begin(), focus.end(), [](float depth) { return depth < Nothing; }));
-    const double seen = met * (1.0 - HiddenShare(front, focus)) * rays.pixelSize * rays.pixelSize;
-    if (seen > (1.0 + LikeShare) * largest)
+    const double area = met * (1.0 - share) * rays.pixelSize * rays.pixelSize;
+    candidates.push_back({ &view, share, area });
+    largestArea = std::max(largestArea, area);
+  }
+  const Candidate * best = nullptr;
+  for (const Candidate & candidate : candidates)
+  {
+    const bool isLarge = candidate.seenArea >= LeastArea * largestArea;
+    if (isLarge && (best == nullptr || candidate.hiddenShare <= best->hiddenShare - LikeShare))
     {
-      best = &view;
-      largest = seen;
+      best = &candidate;
     }
   }
-  return *best;
+  return *best->view;
 }
 
 } // namespace rhombic

@@ -35,8 +35,10 @@ FindEnclosing(const Scene & scene);
 std::vector<std::size_t>
 FindHiding(const Scene & scene, const std::vector<bool> & isFocus, const std::vector<View> & views);
 
-/** The standard view in which most of the focus is seen, as an area in the picture, between opaque surfaces before it;
- * of views whose areas differ by less than 5 % the first. */
+/** The standard view in which opaque surfaces hide the smallest share of the focus; of views whose shares differ by
+ * less than 5 %, the first. Views that show less than half of the area that another one shows do not count, as those
+ * along a vessel.
+ * \param isFocus for each surface of the scene */
 const View &
 FindBestView(const Scene & scene, const std::vector<bool> & isFocus);
 
