@@ -12,6 +12,7 @@ namespace rhombic
 /** What the points of surfaces are coloured by. */
 struct ColourBy
 {
+  /** Where the numbers come from. */
   enum class Kind
   {
     Volume,  ///< the value of a volume at the point, linear between its voxels

@@ -29,21 +29,25 @@ public:
   itkNewMacro(Self);
   itkTypeMacro(TriangleSurfaceAgreementFilter, ProcessObject);
 
+  /** The first surface, A in tables; it is passed on. */
   void
   SetInput1(const TriangleSurface * surface)
   {
     this->SetNthInput(0, const_cast<TriangleSurface *>(surface));
   }
+  /** The surface that the first one is compared with. */
   void
   SetInput2(const TriangleSurface * surface)
   {
     this->SetNthInput(1, const_cast<TriangleSurface *>(surface));
   }
+  /** The surface of SetInput1(). */
   const TriangleSurface *
   GetInput1() const
   {
     return itkDynamicCastInDebugMode<const TriangleSurface *>(this->ProcessObject::GetInput(0));
   }
+  /** The surface of SetInput2(). */
   const TriangleSurface *
   GetInput2() const
   {
