@@ -445,6 +445,72 @@ TEST_F(CompareLabels, GrowthOfALesion)
     << "a lesion that shrinks does not double";
 }
 
+TEST_F(CompareLabels, MistakesAreNotTakenForResults)
+{
+  const auto map = [](int one, int two) -> LabelFunction {
+    return [=](const PointType & p) {
+      return Ball(6.0, At(-12.0, 0, 0))(p) != 0 ? one : Ball(6.0, At(12.0, 0, 0))(p) * two;
+    };
+  };
+  this->Write("a.nrrd", Cubes, map(1, 2));
+  CompareLabelsSettings settings = this->SettingsFor("a.nrrd", "a.nrrd");
+  settings.hidden = { "*" };
+  this->ExpectFailure(settings, FailureKind::Usage, "No label is left");
+  settings = this->SettingsFor("a.nrrd", "a.nrrd");
+  settings.pairs = { { "1", "1" }, { "1", "2" } };
+  this->ExpectFailure(settings, FailureKind::Usage, "two pairs");
+  settings.pairs = { { "1", "7" } };
+  this->Run(settings);
+  EXPECT_NE(m_Notes.find("warning: B has no label 7"), std::string::npos) << m_Notes;
+
+  this->WriteText("a.tsv", "index\tname\n1\tlesion\n2\tlesion\n");
+  settings.pairs.clear();
+  this->ExpectFailure(settings, FailureKind::Usage, "called lesion");
+  settings.pairsByValue = true;
+  EXPECT_EQ(this->Run(settings).size(), 2u);
+  settings.table = this->PathOf("a.tsv");
+  this->ExpectFailure(settings, FailureKind::Usage, "is the input itself");
+
+  this->WriteText(
+    "mirror.tfm",
+    "#Insight Transform File V1.0\nTransform: AffineTransform_double_3_3\nParameters: -1 0 0 0 1 0 0 0 1 0 0 "
+    "0\nFixedParameters: 0 0 0\n");
+  settings.table.clear();
+  settings.transform = this->PathOf("mirror.tfm");
+  this->ExpectFailure(settings, FailureKind::Usage, "mirrors");
+}
+
+/** The walls of a label depend on the labels beside it, and not on which ones are compared. */
+TEST_F(CompareLabels, RowsDoNotDependOnWhichLabelsAreChosen)
+{
+  const auto map = [](double shift) -> LabelFunction {
+    return [=](const PointType & p) {
+      return Ball(7.0, At(-8.0 + shift, 0, 0))(p) != 0 ? 1 : Ball(8.0, At(7.5, 0, 0))(p) * 2;
+    };
+  };
+  this->Write("a.nrrd", Cubes, map(0.0));
+  this->Write("b.nrrd", Cubes, map(1.0));
+  CompareLabelsSettings settings = this->SettingsFor("a.nrrd", "b.nrrd");
+  const LabelAgreement amongAll = this->Run(settings).at(0);
+  settings.only = { "label 1" };
+  const LabelAgreement alone = this->Run(settings).at(0);
+  EXPECT_EQ(amongAll.surfaces.hausdorff, alone.surfaces.hausdorff);
+  EXPECT_EQ(amongAll.surfaces.pooledMean, alone.surfaces.pooledMean);
+}
+
+TEST_F(CompareLabels, LabelsBeyondTheGridOfAAreSaid)
+{
+  LabelGrid half = Cubes;
+  half.size[0] = 24;
+  half.middle = At(-12.0, 0.0, 0.0);
+  this->Write("half.nrrd", half, Ball(10.0));
+  this->Write("whole.nrrd", Cubes, Ball(10.0));
+  this->Run(this->SettingsFor("half.nrrd", "whole.nrrd"));
+  EXPECT_NE(m_Notes.find("lie outside of A's grid"), std::string::npos) << m_Notes;
+  this->Run(this->SettingsFor("whole.nrrd", "half.nrrd"));
+  EXPECT_EQ(m_Notes.find("lie outside of A's grid"), std::string::npos) << m_Notes;
+}
+
 /** A map of a real scan against itself moved by a voxel. */
 TEST_F(CompareLabels, OneVoxelOfARealMap)
 {

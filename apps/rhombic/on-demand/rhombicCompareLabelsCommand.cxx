@@ -4,6 +4,8 @@
 #include "rhombicScanOptions.h"
 #include "rhombicWording.h"
 
+#include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <iostream>
 
@@ -46,6 +48,12 @@ ParsePair(const std::string & text)
   return { text.substr(0, equals), text.substr(equals + 1) };
 }
 
+bool
+HasDigit(const std::string & text)
+{
+  return std::any_of(text.begin(), text.end(), [](unsigned char letter) { return std::isdigit(letter) != 0; });
+}
+
 /** One length for all labels, or a file of lines with the name of a label, which may hold * and ?, and its length. */
 std::vector<LabelTolerance>
 ParseTolerances(const std::string & text)
@@ -72,7 +80,7 @@ ParseTolerances(const std::string & text)
     {
       tolerances.push_back({ std::string(Trim(fields[0])), *length });
     }
-    else if (!Trim(line).empty() && number > 1) // the first line may be a heading
+    else if (!Trim(line).empty() && (number > 1 || HasDigit(fields.back()))) // the first line may be a heading
     {
       throw Failure(FailureKind::Usage,
                     "Line " + std::to_string(number) + " of " + text +
@@ -125,6 +133,7 @@ GetSettings(const CompareLabelsOptions & options, const CommandSettings & comman
   settings.only = options.only;
   settings.hidden = options.hidden;
   settings.tolerances = ParseTolerances(options.tolerance);
+  settings.toleranceTable = ToNumber<double>(options.tolerance) ? "" : options.tolerance;
   settings.takesVoxelSurfaces =
     FindNamed<bool>("kind of surface", options.surface, { { "smooth", false }, { "voxels", true } });
   settings.transform = options.transform;
@@ -166,7 +175,7 @@ InputTable()
       &Options::pairs,
       "a label of A and the label of B that it is compared with, by name or value: liver=Leber, 5=12; repeatable",
       SplitAtCommas },
-    { "--by-value", &Options::isByValue, "pair labels by value, even if they have names" },
+    { "--by-value", &Options::isByValue, "pair labels by value, even if they have names", Excludes({ "--surfaces" }) },
     { "--only",
       &Options::only,
       "the labels to compare, by name with * and ?, or by group, as in render; repeatable",
@@ -195,7 +204,7 @@ MeasureTable()
       "a rigid or affine transform of ITK in text (.tfm) that maps points of A's space to B's, as a registration "
       "writes "
       "it with A fixed",
-      OfKind(SettingKind::InputFile) },
+      OfKind(SettingKind::Source) },
     { "--transform-inverse",
       &Options::isTransformInverted,
       "the transform maps points of B's space to A's, as a registration writes it with B fixed",
@@ -205,6 +214,7 @@ MeasureTable()
       "dates of A and of B, as 2025-01-03,2026-01-10: the table has the growth of each label in ml a year, and the "
       "days "
       "in which it doubles",
+      OfKind(SettingKind::Source),
       SplitAtCommas },
     { "-o,--output",
       &Options::output,

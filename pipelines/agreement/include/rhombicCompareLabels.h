@@ -47,6 +47,7 @@ struct CompareLabelsSettings
   std::vector<std::string> hidden;
 
   std::vector<LabelTolerance> tolerances{ { "*", 1.0 } }; ///< later ones count more
+  std::filesystem::path toleranceTable;                   ///< the file of the tolerances, if any, which is no output
   bool takesVoxelSurfaces = false; ///< of label maps: the voxels' faces in place of smooth surfaces
 
   std::filesystem::path transform;  ///< of ITK in text, affine: maps points of A's space to B's; empty: one space

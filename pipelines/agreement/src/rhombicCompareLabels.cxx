@@ -55,6 +55,28 @@ ReadSpaceMaps(const CompareLabelsSettings & settings)
   return maps;
 }
 
+/** Says by what factor a transform changes volumes, if it does. Throws Failure(Usage) for one that mirrors. */
+void
+NoteScale(const SpaceMaps & maps, const Events & events)
+{
+  if (maps.toSecond == nullptr)
+  {
+    return;
+  }
+  const double factor = vnl_det(maps.toSecond->GetMatrix().GetVnlMatrix());
+  if (factor < 0.0)
+  {
+    throw Failure(FailureKind::Usage,
+                  "The transform mirrors, which no registration of a patient does; check the file and its direction.");
+  }
+  constexpr double notable = 1e-3;
+  if (std::abs(factor - 1.0) > notable)
+  {
+    events.Note("the transform changes volumes by the factor " + FormatNumber(factor, 4) +
+                "; volumes in the table are those of each segmentation's own space");
+  }
+}
+
 /** The box around points, along the patient's axes. */
 std::pair<PointType, PointType>
 FindBox(const std::vector<PointType> & points)
@@ -225,13 +247,6 @@ BringToFirst(const SurfacePointer & surface, const SpaceMaps & maps)
     const PointType position = maps.toFirst->TransformPoint(PointType(point.data()));
     point = { static_cast<float>(position[0]), static_cast<float>(position[1]), static_cast<float>(position[2]) };
   }
-  if (vnl_det(maps.toFirst->GetMatrix().GetVnlMatrix()) < 0.0)
-  {
-    for (auto & triangle : moved->GetTriangles())
-    {
-      std::swap(triangle[1], triangle[2]);
-    }
-  }
   return moved;
 }
 
@@ -325,12 +340,17 @@ public:
     , m_First(LoadSide(settings, false, events))
     , m_Second(LoadSide(settings, true, events))
   {
+    NoteScale(m_Maps, events);
     RequireOneSpace(m_First, m_Second, m_Maps);
     NoteGrids(m_First, m_Second, m_Maps, events);
     const bool areSingle = m_First.isSingle && m_Second.isSingle;
     m_Pairs = PairLabels(m_First.labels,
                          m_Second.labels,
                          { settings.pairs, settings.pairsByValue, areSingle, settings.only, settings.hidden });
+    for (const LabelPair & pair : m_Pairs)
+    {
+      FindTolerance(settings.tolerances, pair.name); // before long work
+    }
     this->NotePairing();
   }
 
@@ -362,6 +382,7 @@ public:
       none.label = "all labels";
       none.status = AgreementStatus::BothEmpty;
       none.dice = none.iou = 1.0;
+      none.tolerance = m_Settings.tolerances.front().millimetres;
     }
     m_Events.Progress("comparing", 1.0);
     return agreements;
@@ -386,6 +407,15 @@ private:
     m_Events.Note(m_First.isSingle && m_Second.isSingle  ? "A and B hold one label each, which are compared"
                   : m_Settings.pairsByValue || !areNamed ? "labels are paired by value"
                                                          : "labels are paired by name");
+    for (const auto & [inFirst, inSecond] : m_Settings.pairs)
+    {
+      const bool isOfFirst = !FindLabel(m_First.labels, inFirst);
+      if (isOfFirst || !FindLabel(m_Second.labels, inSecond))
+      {
+        m_Events.Note(isOfFirst ? "warning: A has no label " + inFirst + SuggestLabel(m_First.labels, inFirst)
+                                : "warning: B has no label " + inSecond + SuggestLabel(m_Second.labels, inSecond));
+      }
+    }
     const std::string doubt = FindDoubt(m_First, m_Second, m_Pairs, m_Maps);
     if (!doubt.empty())
     {
@@ -400,6 +430,23 @@ private:
     {
       m_Events.Progress("comparing voxels", 0.0);
       m_Overlap = ComputeLabelOverlap(m_First.map->scan, m_Second.map->scan, m_Maps.toSecond);
+    }
+  }
+
+  /** Says if a part of a label of B lies outside of A's grid. */
+  void
+  NoteOutside(const std::string & name, int inSecond) const
+  {
+    constexpr double notable = 0.05; // of the label; less may be lost between voxels of other sizes
+    const double scale =
+      m_Maps.toFirst != nullptr ? std::abs(vnl_det(m_Maps.toFirst->GetMatrix().GetVnlMatrix())) : 1.0;
+    const double whole = scale * m_Second.moments.at(inSecond).volume;
+    const auto found = m_Overlap->second.find(inSecond);
+    const double inGrid = found != m_Overlap->second.end() ? found->second : 0.0;
+    if (inGrid < (1.0 - notable) * whole)
+    {
+      m_Events.Note(name + ": " + FormatMillilitres((whole - inGrid) / CubicMillimetresPerMl) +
+                    " of B lie outside of A's grid, and do not count for Dice and IoU");
     }
   }
 
@@ -426,6 +473,7 @@ private:
       const int inSecond = m_Second.labels[*pair.second].value;
       agreement.dice = m_Overlap->GetDice(inFirst, inSecond);
       agreement.iou = m_Overlap->GetIoU(inFirst, inSecond);
+      this->NoteOutside(pair.name, inSecond);
     }
     agreement.centroidShift =
       FindCentroid(m_First, *pair.first).EuclideanDistanceTo(m_Maps.ToFirst(FindCentroid(m_Second, *pair.second)));
@@ -440,6 +488,21 @@ private:
   std::vector<LabelPair> m_Pairs;
   std::optional<LabelOverlap> m_Overlap;
 };
+
+/** The other files that are read: tables, also one beside a label map, and the transform. */
+SurfaceSelection
+OtherInputs(const fs::path & map, const fs::path & table, const CompareLabelsSettings & settings)
+{
+  SurfaceSelection selection;
+  LabelMapSource & source = selection.labels.emplace().source;
+  source.table = table;
+  source.paths = { settings.transform, settings.toleranceTable };
+  for (const char * const extension : { ".ctbl", ".csv", ".tsv", ".label", ".txt" })
+  {
+    source.paths.push_back(map.parent_path() / (StemOfVolume(map) + extension));
+  }
+  return selection;
+}
 
 } // namespace
 
@@ -495,8 +558,8 @@ std::vector<LabelAgreement>
 CompareLabels(const CompareLabelsSettings & settings, const Events & events, std::vector<MadeFile> & made)
 {
   const std::vector<fs::path> outputs = CheckCompareLabels(settings);
-  CheckOutputs(outputs, settings.first);
-  CheckOutputs(outputs, settings.second);
+  CheckOutputs(outputs, settings.first, OtherInputs(settings.first.path, settings.firstTable, settings));
+  CheckOutputs(outputs, settings.second, OtherInputs(settings.second.path, settings.secondTable, settings));
   std::vector<LabelAgreement> agreements = Comparison(settings, events).Run();
   if (!settings.table.empty())
   {

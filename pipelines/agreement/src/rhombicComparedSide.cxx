@@ -6,8 +6,13 @@
 #include "rhombicSurfaceIO.h"
 #include "rhombicVoxelSurface.h"
 
+#include "itkTriangleSurfaceMeasures.h"
+#include "itkTriangleSurfaceTopology.h"
+
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <utility>
 
 namespace rhombic
 {
@@ -89,13 +94,42 @@ LoadIsosurface(const ScanSource & source, const SurfaceRequest & request, const 
   side.map = LabelMap{ std::move(mask), {} };
 }
 
+/** The surface of a solid, turned if it faces inwards. Notes say so, and that a surface is open. Throws
+ * Failure(Unreadable) for positions that are not finite. */
+itk::TriangleSurface::ConstPointer
+CheckSolid(const SceneSurface & item, const std::filesystem::path & path, const Events & events)
+{
+  const double volume = ComputeTriangleSurfaceVolume(*item.surface);
+  if (!std::isfinite(volume))
+  {
+    throw Failure(FailureKind::Unreadable,
+                  path.string() + ": a position of the surface " + item.name + " is no number; export it anew.");
+  }
+  if (ComputeTriangleSurfaceTopology(*item.surface).boundaryEdges > 0)
+  {
+    events.Note("warning: the surface " + item.name + " is open, so that its volume and its inside are not defined");
+  }
+  if (volume >= 0.0)
+  {
+    return item.surface;
+  }
+  events.Note("warning: the surface " + item.name + " faces inwards; it was turned");
+  const auto turned = itk::TriangleSurface::New();
+  turned->Graft(item.surface);
+  for (auto & triangle : turned->GetTriangles())
+  {
+    std::swap(triangle[1], triangle[2]);
+  }
+  return turned;
+}
+
 void
-LoadSurfaces(const std::filesystem::path & path, ComparedSide & side)
+LoadSurfaces(const std::filesystem::path & path, const Events & events, ComparedSide & side)
 {
   for (const SceneSurface & surface : ReadSurfaces(path))
   {
     side.labels.push_back({ surface.name, 0, true });
-    side.surfaces.push_back(surface.surface);
+    side.surfaces.push_back(CheckSolid(surface, path, events));
   }
   side.isSingle = side.labels.size() == 1;
 }
@@ -115,7 +149,7 @@ LoadSide(const CompareLabelsSettings & settings, bool isSecond, const Events & e
       LoadLabelMap(source, isSecond ? settings.secondTable : settings.firstTable, events, side);
       break;
     case ComparedKind::Surfaces:
-      LoadSurfaces(source.path, side);
+      LoadSurfaces(source.path, events, side);
       break;
     case ComparedKind::Isosurfaces:
       LoadIsosurface(source, settings.isosurface, events, side);
@@ -147,17 +181,18 @@ ExtractSide(const CompareLabelsSettings & settings,
   LabelSurfaceSettings making;
   making.density = settings.first.lattice.density;
   making.maximumMemory = settings.first.lattice.maximumMemory;
-  std::transform(chosen.begin(), chosen.end(), std::back_inserter(making.labels), [&](std::size_t label) {
-    return std::to_string(side.labels[label].value);
-  });
+  for (const ComparedLabel & label : side.labels) // all, as walls depend on the labels beside them
+  {
+    making.labels.push_back(std::to_string(label.value));
+  }
   LabelMesh mesh = LabelsToWalls(*side.map, making, events);
   ExtractSurfaces(mesh);
-  for (const LabelSurface & made : mesh.labels)
+  for (const std::size_t label : chosen)
   {
-    const auto label = std::find_if(side.labels.begin(), side.labels.end(), [&](const ComparedLabel & candidate) {
-      return candidate.value == made.value;
+    const auto made = std::find_if(mesh.labels.begin(), mesh.labels.end(), [&](const LabelSurface & candidate) {
+      return candidate.value == side.labels[label].value;
     });
-    side.surfaces[static_cast<std::size_t>(label - side.labels.begin())] = made.scene.surface;
+    side.surfaces[label] = made->scene.surface;
   }
 }
 

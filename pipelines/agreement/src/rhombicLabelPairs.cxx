@@ -44,17 +44,6 @@ NameSome(const Labels & labels)
   return Enumerate(names, "and");
 }
 
-/** The number of the label with this name or value. */
-std::optional<std::size_t>
-FindLabel(const Labels & labels, const std::string & nameOrValue)
-{
-  const auto value = ToNumber<int>(nameOrValue);
-  const auto found = std::find_if(labels.begin(), labels.end(), [&](const ComparedLabel & label) {
-    return label.name == nameOrValue || (value && label.value == *value);
-  });
-  return found != labels.end() ? std::optional(static_cast<std::size_t>(found - labels.begin())) : std::nullopt;
-}
-
 /** The pairs that a user names. */
 std::vector<LabelPair>
 TakeNamedPairs(const Labels & first, const Labels & second, const PairingRules & rules)
@@ -65,16 +54,45 @@ TakeNamedPairs(const Labels & first, const Labels & second, const PairingRules &
     const LabelPair pair{ inFirst, FindLabel(first, inFirst), FindLabel(second, inSecond) };
     if (!pair.first && !pair.second)
     {
-      const std::string nearest = NearestName(inFirst, NamesOf(first));
       throw Failure(FailureKind::Usage,
-                    "A has no label " + inFirst + " and B has no label " + inSecond +
-                      (nearest.empty() ? "" : " (did you mean " + nearest + "?)") + "; A has " + NameSome(first) +
-                      ", B has " + NameSome(second) + ".");
+                    "A has no label " + inFirst + " and B has no label " + inSecond + SuggestLabel(first, inFirst) +
+                      "; A has " + NameSome(first) + ", B has " + NameSome(second) + ".");
     }
     pairs.push_back(pair);
     pairs.back().name = pair.first ? first[*pair.first].name : inFirst;
   }
   return pairs;
+}
+
+/** Throws Failure(Usage) for a label that a user puts into two pairs. */
+void
+RequireSinglePairs(const std::vector<LabelPair> & pairs, std::optional<std::size_t> LabelPair::*side)
+{
+  for (auto pair = pairs.begin(); pair != pairs.end(); ++pair)
+  {
+    const auto isSame = [&](const LabelPair & other) { return other.*side == (*pair).*side; };
+    if ((*pair).*side && std::any_of(pair + 1, pairs.end(), isSame))
+    {
+      throw Failure(FailureKind::Usage,
+                    "The label " + pair->name + " is in two pairs; name each label of A and of B once.");
+    }
+  }
+}
+
+/** Throws Failure(Usage) for names that two labels of a segmentation have. */
+void
+RequireSingleNames(const Labels & labels, const std::string & side)
+{
+  std::vector<std::string> names = NamesOf(labels);
+  std::sort(names.begin(), names.end());
+  const auto twice = std::adjacent_find(names.begin(), names.end());
+  if (twice != names.end())
+  {
+    throw Failure(FailureKind::Usage,
+                  "Two labels of " + side + " are called " + *twice +
+                    ", so labels cannot be paired by name; pair them by value with --by-value, or give them names of "
+                    "their own.");
+  }
 }
 
 /** Throws Failure(Usage) for maps of which only one has names. */
@@ -120,11 +138,33 @@ RequirePatterns(const std::vector<LabelPair> & pairs, const PairingRules & rules
 
 } // namespace
 
+std::optional<std::size_t>
+FindLabel(const Labels & labels, const std::string & nameOrValue)
+{
+  const auto value = ToNumber<int>(nameOrValue);
+  const auto find = [&labels](const auto & fits) {
+    const auto found = std::find_if(labels.begin(), labels.end(), fits);
+    return found != labels.end() ? std::optional(static_cast<std::size_t>(found - labels.begin())) : std::nullopt;
+  };
+  const auto named = find([&](const ComparedLabel & label) { return label.name == nameOrValue; });
+  return named || !value || *value == 0 ? named
+                                        : find([&](const ComparedLabel & label) { return label.value == *value; });
+}
+
+std::string
+SuggestLabel(const Labels & labels, const std::string & name)
+{
+  const std::string nearest = NearestName(name, NamesOf(labels));
+  return nearest.empty() ? "" : " (did you mean " + nearest + "?)";
+}
+
 std::vector<LabelPair>
 PairLabels(const Labels & first, const Labels & second, const PairingRules & rules)
 {
   RequireOneKindOfNames(first, second, rules);
   std::vector<LabelPair> pairs = TakeNamedPairs(first, second, rules);
+  RequireSinglePairs(pairs, &LabelPair::first);
+  RequireSinglePairs(pairs, &LabelPair::second);
   std::vector<char> isTaken(second.size());
   std::vector<char> isPaired(first.size());
   for (const LabelPair & pair : pairs)
@@ -139,6 +179,11 @@ PairLabels(const Labels & first, const Labels & second, const PairingRules & rul
     }
   }
   const bool isByValue = rules.isByValue || (!HasNames(first) && !HasNames(second));
+  if (!isByValue && !rules.areSingle)
+  {
+    RequireSingleNames(first, "A");
+    RequireSingleNames(second, "B");
+  }
   for (std::size_t n = 0; n < first.size(); ++n)
   {
     if (isPaired[n] != 0)
@@ -146,6 +191,10 @@ PairLabels(const Labels & first, const Labels & second, const PairingRules & rul
       continue;
     }
     LabelPair & pair = pairs.emplace_back(LabelPair{ first[n].name, n, std::nullopt });
+    if (rules.areSingle && !second.empty() && first[n].name != second.front().name)
+    {
+      pair.name = "mask"; // names of files, of which neither is that of both
+    }
     for (std::size_t other = 0; other < second.size() && !pair.second; ++other)
     {
       const bool isSame =
@@ -172,9 +221,17 @@ PairLabels(const Labels & first, const Labels & second, const PairingRules & rul
                     "; name the pairs, as --pair " + first.front().name + "=" + second.front().name +
                     ", or pair them --by-value.");
   }
+  if (pairs.empty()) // both hold background only
+  {
+    return pairs;
+  }
   RequirePatterns(pairs, rules);
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), [&](const auto & pair) { return !IsShown(pair.name, rules); }),
               pairs.end());
+  if (pairs.empty())
+  {
+    throw Failure(FailureKind::Usage, "No label is left to compare; hide fewer, or choose others with --only.");
+  }
   return pairs;
 }
 

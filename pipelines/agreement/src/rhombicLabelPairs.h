@@ -36,6 +36,14 @@ struct LabelPair
   std::optional<std::size_t> second;
 };
 
+/** The number of the label with this name, else with this value. */
+std::optional<std::size_t>
+FindLabel(const std::vector<ComparedLabel> & labels, const std::string & nameOrValue);
+
+/** "(did you mean liver?)" with a blank before it, or nothing, for a label that is not in the list. */
+std::string
+SuggestLabel(const std::vector<ComparedLabel> & labels, const std::string & name);
+
 /** The pairs in the order of the first list, then what the second list has alone. Throws Failure(Usage): see
  * CompareLabels(). */
 std::vector<LabelPair>

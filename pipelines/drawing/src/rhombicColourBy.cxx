@@ -51,19 +51,26 @@ SampleVolume(const ScanImage & volume, const itk::TriangleSurface & surface)
 }
 
 /** The surfaces that distances are measured to: of a label map those with the names of the scene's surfaces, if there
- * are any, as walls depend on which labels have surfaces. */
+ * are any, as walls depend on which labels have surfaces.
+ * \param isOnly set: whether the file holds one surface or label */
 std::vector<SceneSurface>
-ReadOthers(const std::filesystem::path & file, const std::vector<SceneSurface> & surfaces, const Events & events)
+ReadOthers(const std::filesystem::path & file,
+           const std::vector<SceneSurface> & surfaces,
+           const Events & events,
+           bool & isOnly)
 {
   if (IsSurfacePath(file))
   {
-    return ReadSurfaces(file);
+    std::vector<SceneSurface> read = ReadSurfaces(file);
+    isOnly = read.size() == 1;
+    return read;
   }
   ScanSource source;
   source.path = file;
   SurfaceSelection selection;
   selection.labels.emplace();
   const LoadedSource loaded = LoadSource(source, selection, std::nullopt, events);
+  isOnly = loaded.labels->labels.size() == 1;
   LabelSurfaceSettings settings;
   for (const LabelSummary & summary : loaded.labels->labels)
   {
@@ -87,13 +94,14 @@ ReadOthers(const std::filesystem::path & file, const std::vector<SceneSurface> &
 std::vector<Values>
 MeasureDistances(const ColourBy & by, const PictureScene & scene, const Events & events)
 {
-  const std::vector<SceneSurface> others = ReadOthers(by.file, scene.surfaces, events);
+  bool isOnly = false;
+  const std::vector<SceneSurface> others = ReadOthers(by.file, scene.surfaces, events, isOnly);
   std::vector<Values> all;
   for (const SceneSurface & surface : scene.surfaces)
   {
     const auto named =
       std::find_if(others.begin(), others.end(), [&](const auto & other) { return other.name == surface.name; });
-    const auto found = others.size() == 1 ? others.begin() : named;
+    const auto found = isOnly ? others.begin() : named;
     if (found == others.end())
     {
       events.Note(surface.name + ": " + by.file.filename().string() + " has no surface of this name; it stays grey");

@@ -187,6 +187,11 @@ TEST(TriangleSurfaceAgreement, EmptySurfaces)
   const Agreement none = ComputeTriangleSurfaceAgreement(*empty, *empty);
   EXPECT_EQ(none.hausdorff, 0.0);
   EXPECT_EQ(none.normalizedDice, 1.0);
+  const auto flat = Surface::New(); // without area
+  flat->GetPoints() = { { 0, 0, 0 }, { 1, 0, 0 }, { 2, 0, 0 } };
+  flat->GetTriangles() = { { 0, 1, 2 } };
+  EXPECT_EQ(ComputeTriangleSurfaceAgreement(*flat, *flat).normalizedDice, 1.0);
+  EXPECT_TRUE(std::isinf(ComputeTriangleSurfaceAgreement(*flat, *sphere).hausdorff));
   EXPECT_THROW(ComputeTriangleSurfaceAgreement(*sphere, *sphere, -1.0), itk::ExceptionObject);
 }
 

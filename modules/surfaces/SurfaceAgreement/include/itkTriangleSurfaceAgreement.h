@@ -28,13 +28,15 @@ struct TriangleSurfaceAgreement
   Side worstSide = Side::First;
 };
 
-/** Compares two surfaces. Triangles are divided until no side is longer than 6 mm, and where the distance is not linear
+/** Compares two surfaces. Triangles are divided until no side is longer than 6 mm (on surfaces of more than
+ * 36 m^2 more), and where the distance is not linear
  * within 0.1 mm, down to sides of 0.1 mm or a quarter of the tolerance, so that neither large nor small triangles bias
  * the result. Measures of balls, boxes and rings are within 0.005 mm of the analytic ones.
  *
- * With one surface empty, distances are infinite and the normalised Dice is 0; with both empty, distances are 0 and the
- * normalised Dice is 1. Exchanging the surfaces changes worstSide only, and worst where several places are equally
- * bad. The same for any number of threads. Time O(n log n); memory some 70 bytes for each triangle.
+ * With one surface empty, or without area, distances are infinite and the normalised Dice is 0; with both empty,
+ * distances are 0 and the normalised Dice is 1. Exchanging the surfaces changes worstSide only, and worst where several
+ * places are equally bad. The same for any number of threads. Time O(n log n); memory some 70 bytes for each triangle
+ * and part.
  *
  * \param tolerance of the normalised Dice, in mm, at least 0
  *

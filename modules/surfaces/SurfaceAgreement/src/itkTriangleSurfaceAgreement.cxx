@@ -1,8 +1,10 @@
 #include "itkTriangleSurfaceAgreement.h"
 
 #include "itkMacro.h"
+#include "itkTriangleSurfaceMeasures.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace itk
@@ -12,6 +14,7 @@ namespace
 
 constexpr double MostBent = 0.1;     // mm
 constexpr double LongestSide = 6.0;  // mm
+constexpr double MostParts = 1e6;    // of a surface, because of the longest side alone, or some more
 constexpr double ShortestSide = 0.1; // mm
 
 /** A surface that is compared with another one. */
@@ -61,14 +64,16 @@ ComputeTriangleSurfaceAgreement(const TriangleSurface & first, const TriangleSur
   {
     itkGenericExceptionMacro("The tolerance of the normalised surface Dice must be at least 0 mm, not " << tolerance);
   }
-  const bool isFirstEmpty = first.GetNumberOfTriangles() == 0;
-  const bool isSecondEmpty = second.GetNumberOfTriangles() == 0;
+  const double areaOfFirst = ComputeTriangleSurfaceArea(first);
+  const double areaOfSecond = ComputeTriangleSurfaceArea(second);
+  const bool isFirstEmpty = !(areaOfFirst > 0.0);
+  const bool isSecondEmpty = !(areaOfSecond > 0.0);
   if (isFirstEmpty || isSecondEmpty)
   {
     return AgreeOnNothing(isFirstEmpty && isSecondEmpty);
   }
   TriangleSurfaceDistanceSettings settings;
-  settings.longestSide = LongestSide;
+  settings.longestSide = std::max(LongestSide, std::sqrt(std::max(areaOfFirst, areaOfSecond) / MostParts));
   settings.mostBent = MostBent;
   settings.shortestSide = tolerance > 0.0 ? std::min(ShortestSide, tolerance / 4.0) : ShortestSide;
   Side one(first);

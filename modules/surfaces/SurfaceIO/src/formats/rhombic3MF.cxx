@@ -313,6 +313,11 @@ protected:
     {
       this->BeginModel(attributes);
     }
+    const bool isOfMesh = name == "vertex" || name == "triangle";
+    if (!isOfMesh && ++m_OtherElements > MostOtherElements)
+    {
+      m_File.RefuseDamaged("it has more than " + std::to_string(MostOtherElements) + " elements beside its meshes");
+    }
     m_IsMetadata = name == "metadata";
   }
 
@@ -545,6 +550,8 @@ private:
   std::map<std::string, Object, std::less<>> m_Objects;
   Object * m_Object = nullptr; ///< the one that is being read
   std::vector<Instance> m_Items;
+  static constexpr std::size_t MostOtherElements = 100000;
+  std::size_t m_OtherElements = 0; ///< beside points and triangles
   std::size_t m_Instances = 0;
   std::uint64_t m_Memory = 0; ///< bytes of placed surfaces so far
   std::vector<SceneSurface> m_Surfaces;
