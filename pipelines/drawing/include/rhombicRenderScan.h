@@ -97,7 +97,7 @@ struct RenderScanSettings : PictureSettings
   std::string focus;              ///< pattern of the surfaces that the picture is fitted to; empty: all
   double ghost = 0.15;            ///< opacity of what hides the focus; 0: left out; 1: as it is
   bool choosesView = false;       ///< with a focus: in place of the views, the one standard view in which the smallest
-                                  ///< share of the focus is hidden, and not a small part of it is seen
+                                  ///< share of the focus is hidden, but none along it
   std::vector<CutRequest> cuts;   ///< at most 6; cut faces have the scan's greys
   std::vector<std::string> uncut; ///< patterns of surfaces that are not cut
   std::vector<PlaneRequest> planes; ///< slices that stand in the scene

@@ -18,7 +18,7 @@ constexpr int RaysAlongSide = 256;
 constexpr double EnclosedShare = 0.9; // of the rays through a surface
 constexpr double HidingShare = 0.005; // of the rays through the focus
 constexpr double LikeShare = 0.05;    // views whose shares differ by less are alike
-constexpr double LeastArea = 0.5;     // of the largest that a view shows: others look along the focus
+constexpr double LeastArea = 0.5;     // of the largest in a view: others look along the focus
 
 constexpr int LongerSideOfSeen = 600; // pixels
 constexpr int FewestSeenPixels = 3;
@@ -348,7 +348,7 @@ FindBestView(const Scene & scene, const std::vector<bool> & isFocus)
   {
     const View * view;
     double hiddenShare;
-    double seenArea; // in mm^2
+    double area; // of the focus in the view, in mm^2
   };
   const LPSBox box = BoxOfFocus(scene, isFocus);
   std::vector<Candidate> candidates;
@@ -359,17 +359,16 @@ FindBestView(const Scene & scene, const std::vector<bool> & isFocus)
     const std::vector<float> focus = FindNearest(scene, rays, [&isFocus](std::size_t n) { return isFocus[n]; });
     const std::vector<float> front =
       FindNearest(scene, rays, [&](std::size_t n) { return !isFocus[n] && scene.surfaces[n].opacity == 1.0; });
-    const double share = HiddenShare(front, focus);
     const auto met =
       static_cast<double>(std::count_if(focus.begin(), focus.end(), [](float depth) { return depth < Nothing; }));
-    const double area = met * (1.0 - share) * rays.pixelSize * rays.pixelSize;
-    candidates.push_back({ &view, share, area });
+    const double area = met * rays.pixelSize * rays.pixelSize;
+    candidates.push_back({ &view, HiddenShare(front, focus), area });
     largestArea = std::max(largestArea, area);
   }
   const Candidate * best = nullptr;
   for (const Candidate & candidate : candidates)
   {
-    const bool isLarge = candidate.seenArea >= LeastArea * largestArea;
+    const bool isLarge = candidate.area >= LeastArea * largestArea;
     if (isLarge && (best == nullptr || candidate.hiddenShare <= best->hiddenShare - LikeShare))
     {
       best = &candidate;

@@ -36,8 +36,8 @@ std::vector<std::size_t>
 FindHiding(const Scene & scene, const std::vector<bool> & isFocus, const std::vector<View> & views);
 
 /** The standard view in which opaque surfaces hide the smallest share of the focus; of views whose shares differ by
- * less than 5 %, the first. Views that show less than half of the area that another one shows do not count, as those
- * along a vessel.
+ * less than 5 %, the first. Views in which the focus has less than half of the area that it has in another one, hidden
+ * or not, do not count, as those along a vessel.
  * \param isFocus for each surface of the scene */
 const View &
 FindBestView(const Scene & scene, const std::vector<bool> & isFocus);
