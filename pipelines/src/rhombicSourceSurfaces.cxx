@@ -200,7 +200,10 @@ FinishSurface(const SurfaceMaking & making, MeshedSurface & surface)
       settings.maximumMove = finish.smoothing.FindLargestMove(MeanSpacingOf(*surface.lattice));
       SmoothTriangleSurface(*finished, settings);
     }
-    surface.forDrawing ? void() : itk::SmoothTriangleSurfaceNormals(*finished);
+    if (!surface.forDrawing) // whose normals are smooth already
+    {
+      itk::SmoothTriangleSurfaceNormals(*finished);
+    }
   }
   return true;
 }

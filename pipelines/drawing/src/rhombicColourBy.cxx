@@ -1,10 +1,10 @@
 #include "rhombicColourBy.h"
 
-#include "rhombicColourSurfaces.h"
 #include "rhombicColourScale.h"
 #include "rhombicFailure.h"
 #include "rhombicGreyWindow.h"
 #include "rhombicLabelSurfaces.h"
+#include "rhombicPictureSteps.h"
 #include "rhombicScanReader.h"
 #include "rhombicSurfaceIO.h"
 #include "rhombicWording.h"

@@ -121,6 +121,12 @@ ShowFocus(const std::vector<ClipPlane> & cuts,
           PictureScene & scene,
           const Events & events);
 
+/** Sets the colours of the points of all surfaces, the scene's scale and its report. Notes give the range. Throws
+ * Failure: Geometry for a volume that reaches no surface; Usage for one with unevenly spaced slices; and those of the
+ * files. */
+void
+ColourSurfaces(const ColourBy & by, PictureScene & scene, const Events & events);
+
 /** Adds slices that stand in the scene. */
 void
 AddPlanes(const RenderScanSettings & settings, const PictureScene & source, Scene & scene);

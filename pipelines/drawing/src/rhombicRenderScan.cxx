@@ -1,6 +1,5 @@
 #include "rhombicRenderScan.h"
 
-#include "rhombicColourSurfaces.h"
 #include "rhombicFailure.h"
 #include "rhombicGreyWindow.h"
 #include "rhombicHiding.h"
