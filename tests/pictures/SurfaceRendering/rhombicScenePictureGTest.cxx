@@ -363,10 +363,11 @@ TEST_F(ScenePicture, TranslucentSpheresAreBlendedInOrderAlongEveryRay)
         if (across < 1.0)
         {
           const double cosine = std::sqrt(1.0 - across * across);
-          const double exponent = std::max(2.0, 0.5 * (std::sqrt(16.0 / ball.opacity - 7.0) - 3.0));
-          const double facing = std::max(0.5 * ball.opacity, 1.2 * ball.opacity - 0.2);
+          const double least = std::max(ball.opacity, 0.25);
+          const double exponent = std::max(2.0, 0.5 * (std::sqrt(16.0 / least - 7.0) - 3.0));
+          const double facing = std::max(0.5 * least, 1.2 * least - 0.2);
           hits.push_back({ ball.centre[1] - ball.radius * cosine,
-                           facing + (1.0 - facing) * std::pow(1.0 - cosine, exponent),
+                           ball.opacity / least * (facing + (1.0 - facing) * std::pow(1.0 - cosine, exponent)),
                            ball.lit.At(x, y) });
         }
       }

@@ -23,7 +23,8 @@ class vtkRhombicOpaquePass;
  *
  *     f + (1 - f) (1 - cos angle)^p, f = max(o / 2, 1.2 o - 0.2), p = max(2, (sqrt(16 / o - 7) - 3) / 2)
  *
- * whose exponent p, 5 for glass, is such that the mean over the picture of a ball is o.
+ * whose exponent p, 5 for glass, is such that the mean over the picture of a ball is o. Below an opacity of 1/4 it is
+ * that of 1/4 times 4 o, so that outlines of faint surfaces are faint, too.
  *
  * @sa vtkRhombicOpaquePass vtkRhombicSurfacePass
  */

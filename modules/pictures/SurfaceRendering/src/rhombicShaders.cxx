@@ -122,9 +122,10 @@ void main()
 #else
 #if TRANSLUCENT
   // See vtkRhombicTranslucentPass.
-  float exponent = max(2.0, 0.5 * sqrt(16.0 / colour.a - 7.0) - 1.5);
-  float facing = max(0.5 * colour.a, 1.2 * colour.a - 0.2);
-  colour.a = colour.a > 0.0 ? mix(pow(1.0 - min(abs(normal.z), 1.0), exponent), 1.0, facing) : 0.0;
+  float least = max(colour.a, 0.25);
+  float exponent = max(2.0, 0.5 * sqrt(16.0 / least - 7.0) - 1.5);
+  float facing = max(0.5 * least, 1.2 * least - 0.2);
+  colour.a *= mix(pow(1.0 - min(abs(normal.z), 1.0), exponent), 1.0, facing) / least;
 #endif
   gl_FragData[0] = vec4(Lit(gl_FrontFacing ? colour.rgb : 0.85 * colour.rgb, normal), colour.a);
 #endif
