@@ -6,6 +6,7 @@
 #include "itkTriangleSurfaceMeasures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -43,6 +44,42 @@ RequireInside(SlicePlane plane, double position, const SliceBox & box)
                     " mm is outside of what is shown, which reaches from " + FormatNumber(lowest, 5) + " to " +
                     FormatNumber(highest, 5) + " mm; choose a place in between.");
   }
+}
+
+constexpr std::size_t Places = 200; // that are tried for a slice
+
+/** The n-th of places that lie evenly within a box, in LPS mm. */
+double
+PositionOf(std::size_t n, std::size_t axis, const LPSBox & box)
+{
+  return box.lowest[axis] +
+         (box.highest[axis] - box.lowest[axis]) * static_cast<double>(n) / static_cast<double>(Places);
+}
+
+/** The areas in mm^2 of a closed surface's sections at PositionOf() all places. A section's area is the sum of the
+ * areas of all triangles above it, projected along the axis, as the whole surface's sum is 0. */
+std::array<double, Places>
+FindSections(const itk::TriangleSurface & surface, std::size_t axis, const LPSBox & box)
+{
+  std::array<double, Places> areas{};
+  const std::size_t u = (axis + 1) % 3;
+  const std::size_t v = (axis + 2) % 3;
+  const double perMillimetre = static_cast<double>(Places) / std::max(box.highest[axis] - box.lowest[axis], 1e-9);
+  for (const auto & [first, second, third] : surface.GetTriangles())
+  {
+    const auto & a = surface.GetPoints()[first];
+    const auto & b = surface.GetPoints()[second];
+    const auto & c = surface.GetPoints()[third];
+    const double area =
+      0.5 * ((double(b[u]) - a[u]) * (double(c[v]) - a[v]) - (double(b[v]) - a[v]) * (double(c[u]) - a[u]));
+    const double place = ((double(a[axis]) + b[axis] + c[axis]) / 3.0 - box.lowest[axis]) * perMillimetre;
+    areas[static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(Places - 1)))] += area;
+  }
+  for (std::size_t n = Places - 1; n > 0; --n)
+  {
+    areas[n - 1] += areas[n];
+  }
+  return areas;
 }
 
 } // namespace
@@ -123,35 +160,33 @@ NeedPlaces(const std::vector<PlaneRequest> & requests, SceneRules & rules)
 Vector3
 PlaceOfMost(SlicePlane plane, const PictureScene & scene)
 {
-  constexpr int places = 200; // that are tried
-  constexpr double end = 0.1; // share of a surface's extent at each end, in which little of it is cut
+  constexpr double notable = 0.1; // share of a surface's largest section that counts as shown
+  constexpr double like = 0.05;   // sums of shares that differ by less are alike
   const std::size_t axis = AxisOf(plane);
   const LPSBox box = BoxAround(scene.surfaces);
   const double middle = CentreOf(box)[axis];
-  std::vector<std::pair<double, double>> reaches;
+  std::array<int, Places> shown{};     // surfaces
+  std::array<double, Places> shares{}; // of the largest sections of all surfaces
   for (const SceneSurface & surface : scene.surfaces)
   {
-    const LPSBox reach = BoxAround({ surface });
-    const double margin = end * (reach.highest[axis] - reach.lowest[axis]);
-    reaches.emplace_back(reach.lowest[axis] + margin, reach.highest[axis] - margin);
-  }
-  const auto countAt = [&reaches](double position) {
-    return std::count_if(reaches.begin(), reaches.end(), [position](const auto & reach) {
-      return position >= reach.first && position <= reach.second;
-    });
-  };
-  double best = middle;
-  for (int n = 0; n <= places; ++n)
-  {
-    const double position = box.lowest[axis] + (box.highest[axis] - box.lowest[axis]) * n / places;
-    const auto gain = countAt(position) - countAt(best);
-    if (gain > 0 || (gain == 0 && std::abs(position - middle) < std::abs(best - middle)))
+    const std::array<double, Places> areas = FindSections(*surface.surface, axis, box);
+    const double largest = *std::max_element(areas.begin(), areas.end());
+    for (std::size_t n = 0; largest > 0.0 && n < Places; ++n)
     {
-      best = position;
+      shown[n] += areas[n] >= notable * largest ? 1 : 0;
+      shares[n] += std::max(0.0, areas[n]) / largest;
     }
   }
+  const auto valueAt = [&](std::size_t n) {
+    return std::make_tuple(shown[n], std::lround(shares[n] / like), -std::abs(PositionOf(n, axis, box) - middle));
+  };
+  std::size_t best = 0;
+  for (std::size_t n = 1; n < Places; ++n)
+  {
+    best = valueAt(n) > valueAt(best) ? n : best;
+  }
   const auto [lowest, highest] = ReachOf(scene.box, axis);
-  return PointAtPosition(scene.box, plane, std::clamp(best, lowest, highest));
+  return PointAtPosition(scene.box, plane, std::clamp(PositionOf(best, axis, box), lowest, highest));
 }
 
 std::vector<Vector3>
