@@ -53,6 +53,52 @@ TEST(PlanePlaces, APageShowsTheSliceThatMeetsMostSurfaces)
   EXPECT_DOUBLE_EQ(PlaceOfMost(SlicePlane::Axial, alone)[2], 150.0);
 }
 
+/** Two surfaces as one. */
+SceneSurface
+Together(const SceneSurface & first, const SceneSurface & second)
+{
+  const auto both = itk::TriangleSurface::New();
+  both->Graft(first.surface);
+  const auto shift = static_cast<std::uint32_t>(both->GetNumberOfPoints());
+  const auto & points = second.surface->GetPoints();
+  both->GetPoints().insert(both->GetPoints().end(), points.begin(), points.end());
+  for (const auto & [a, b, c] : second.surface->GetTriangles())
+  {
+    both->GetTriangles().push_back({ a + shift, b + shift, c + shift });
+  }
+  SceneSurface item;
+  item.surface = both;
+  return item;
+}
+
+TEST(PlanePlaces, APageShowsLargeSectionsNotSpecks)
+{
+  PictureScene scene;
+  scene.box = BoxOf({ 0, 0, 0 }, { 100, 100, 300 }, { 1, 1, 1 });
+  scene.surfaces = { Box({ 0, 0, 0 }, { 100, 100, 300 }),
+                     Together(Box({ 20, 20, 30 }, { 60, 60, 61 }), Box({ 70, 70, 140 }, { 80, 80, 160 })) };
+  const double axial = PlaceOfMost(SlicePlane::Axial, scene)[2];
+  EXPECT_GT(axial, 30.0);
+  EXPECT_LT(axial, 61.0) << "the speck lies nearer to the middle";
+}
+
+TEST(PlanePlaces, FlatSurfacesAreSeenFromTheirFaces)
+{
+  const auto namesOf = [](const SceneSurface & surface) {
+    std::string names;
+    for (const View & view : ViewsOfFaces({ surface }))
+    {
+      names += view.name + ' ';
+    }
+    return names;
+  };
+  EXPECT_EQ(namesOf(Box({ 0, 0, 0 }, { 200, 150, 10 })), "inferior superior ");
+  EXPECT_EQ(namesOf(Box({ 0, 0, 0 }, { 200, 10, 150 })), "anterior posterior ");
+  EXPECT_EQ(namesOf(Box({ 0, 0, 0 }, { 10, 150, 200 })), "left right ");
+  EXPECT_EQ(namesOf(Box({ 0, 0, 0 }, { 200, 150, 40 })), "");
+  EXPECT_EQ(namesOf(Box({ 0, 0, 0 }, { 200, 10, 10 })), "") << "a rod has no faces";
+}
+
 TEST(PlanePlaces, LightboxesRunFromHeadToFeetWhereSurfacesAre)
 {
   const PictureScene scene = SceneOfBoxes();

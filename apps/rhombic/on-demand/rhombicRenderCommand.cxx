@@ -257,7 +257,8 @@ RenderSheetOf(const RenderOptions & options, const CommandContext & context)
   RenderSheetSettings settings;
   settings.source = GetPictureSource(options);
   settings.page = options.picture;
-  if (!options.views.empty())
+  settings.choosesViews = options.views.empty();
+  if (!settings.choosesViews)
   {
     settings.views = ParseViews(options);
   }
@@ -403,7 +404,7 @@ RenderPictures(const RenderOptions & options, const CommandContext & context)
   settings.onlyPicture = options.onlyPicture;
   settings.focus = options.focus;
   settings.ghost = options.ghost;
-  settings.choosesView = !options.focus.empty() && options.views.empty();
+  settings.choosesViews = options.views.empty() && !settings.views.empty();
   ParseSize(options.size, settings.render);
   settings.render.style = ParseStyle(options.style, "clinic");
   settings.writesDicom = options.writesDicom;

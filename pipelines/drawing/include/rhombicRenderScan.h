@@ -83,6 +83,9 @@ struct PictureSettings
   std::vector<PlaneRequest> slices; ///< pictures of slices; of a page up to 3, and without any: axial, coronal and
                                     ///< sagittal; those without a place meet most surfaces
   SliceSettings slice;
+  bool choosesViews = false;       ///< no view was asked for: with a focus, the one standard view in which the smallest
+                                   ///< share of the focus is hidden, but none along it; of surfaces that are flat, as
+                                   ///< those of a few slices, views of their faces
   bool writesDicom = false;        ///< also writes each picture or page as DICOM, .dcm in place of the extension (see
                                    ///< DicomStudy); a turntable is one file
   std::filesystem::path thumbnail; ///< the first picture or page, small, as .jpg; not of a .pdf; empty: none
@@ -92,14 +95,12 @@ struct PictureSettings
 /** From a scan or surface files to pictures. */
 struct RenderScanSettings : PictureSettings
 {
-  RenderSettings render;          ///< its memory is the source's, its margins those of the annotations
-  std::vector<View> views{ {} };  ///< of the surfaces
-  std::string focus;              ///< pattern of the surfaces that the picture is fitted to; empty: all
-  double ghost = 0.15;            ///< opacity of what hides the focus; 0: left out; 1: as it is
-  bool choosesView = false;       ///< with a focus: in place of the views, the one standard view in which the smallest
-                                  ///< share of the focus is hidden, but none along it
-  std::vector<CutRequest> cuts;   ///< at most 6; cut faces have the scan's greys
-  std::vector<std::string> uncut; ///< patterns of surfaces that are not cut
+  RenderSettings render;            ///< its memory is the source's, its margins those of the annotations
+  std::vector<View> views{ {} };    ///< of the surfaces
+  std::string focus;                ///< pattern of the surfaces that the picture is fitted to; empty: all
+  double ghost = 0.15;              ///< opacity of what hides the focus; 0: left out; 1: as it is
+  std::vector<CutRequest> cuts;     ///< at most 6; cut faces have the scan's greys
+  std::vector<std::string> uncut;   ///< patterns of surfaces that are not cut
   std::vector<PlaneRequest> planes; ///< slices that stand in the scene
   AnnotationSettings annotations;
   std::optional<ColourBy> colourBy; ///< of the surfaces in views, in place of their colours; with a bar of colours in

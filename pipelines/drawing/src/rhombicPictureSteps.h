@@ -78,8 +78,9 @@ NeedPlaces(const std::vector<PlaneRequest> & requests, SceneRules & rules);
 Vector3
 FindPlace(const PlaneRequest & request, const PictureScene & scene);
 
-/** The point of a plane that meets most surfaces, not only their ends; of several such planes the one nearest to the
- * middle of all surfaces. */
+/** The point of a plane that shows most surfaces: sections of a tenth of the surface's largest section and more. Of
+ * several such planes the one with the largest sections in all, each as a share of its surface's largest; of planes
+ * alike the one nearest to the middle of all surfaces. */
 Vector3
 PlaceOfMost(SlicePlane plane, const PictureScene & scene);
 
@@ -113,7 +114,12 @@ OpenEnclosing(const SurfaceSelection & selection,
               PictureScene & scene,
               const Events & events);
 
-/** With a focus, chooses the view if that was asked for, and gives the settings' ghost opacity to surfaces that hide
+/** Of surfaces that are flat along an axis of the patient, the two standard views of their faces; otherwise none. Of
+ * axial faces that from the feet comes first, as axial slices are seen. */
+std::vector<View>
+ViewsOfFaces(const std::vector<SceneSurface> & surfaces);
+
+/** Chooses the view if none was asked for. With a focus, gives the settings' ghost opacity to surfaces that hide
  * the focus in one of the views; with a note, and in the report. An opacity that was asked for stays. */
 void
 ShowFocus(const std::vector<ClipPlane> & cuts,

@@ -183,21 +183,31 @@ LargestMargins(const std::vector<Annotations> & annotations,
 }
 
 /** Settings of which all pictures are higher, if they would be less than a quarter as high as wide and their height is
- * free: the letters of thin scenes stay apart. */
+ * free; or wider, if less than half as wide as high, their width is free and they have legends. Letters and legends
+ * then have room. */
 RenderSettings
-Heightened(RenderSettings render, std::vector<Projection> planned, const std::vector<Annotations> & annotations)
+Widened(RenderSettings render, std::vector<Projection> planned, const std::vector<Annotations> & annotations)
 {
-  constexpr double thinnest = 0.25;
-  const auto isThin = [](const Projection & picture) { return picture.height < thinnest * picture.width; };
-  if (render.height > 0 || !std::all_of(planned.begin(), planned.end(), isThin))
+  constexpr double lowest = 0.25;
+  constexpr double narrowest = 0.5;
+  const auto areAll = [&planned](const auto & is) { return std::all_of(planned.begin(), planned.end(), is); };
+  const bool areLow =
+    render.height <= 0 && areAll([](const auto & picture) { return picture.height < lowest * picture.width; });
+  const bool haveLegends = std::any_of(
+    annotations.begin(), annotations.end(), [](const Annotations & given) { return !given.legend.empty(); });
+  const bool areNarrow = haveLegends && render.width <= 0 &&
+                         areAll([](const auto & picture) { return picture.width < narrowest * picture.height; });
+  if (!areLow && !areNarrow)
   {
     return render;
   }
   for (const Projection & picture : planned)
   {
     render.width = std::max(render.width, picture.width);
+    render.height = std::max(render.height, picture.height);
   }
-  render.height = static_cast<int>(std::lround(thinnest * render.width));
+  (areLow ? render.height : render.width) =
+    static_cast<int>(std::lround(areLow ? lowest * render.width : narrowest * render.height));
   for (Projection & picture : planned)
   {
     picture.width = render.width;
@@ -267,7 +277,7 @@ FitToScene(const RenderScanSettings & settings,
     }
     render.margins = LargestMargins(annotations, planned, none);
   }
-  return Heightened(render, planned, annotations);
+  return Widened(render, planned, annotations);
 }
 
 /** Gives each view's annotations the legend of the surfaces that are seen in it; all frames of a turntable have the

@@ -250,8 +250,9 @@ CheckRenderSheet(const RenderSheetSettings & settings)
 }
 
 std::vector<MadeFile>
-RenderSheet(const RenderSheetSettings & settings, const Events & events, std::optional<SourceVolume> volume)
+RenderSheet(const RenderSheetSettings & given, const Events & events, std::optional<SourceVolume> volume)
 {
+  RenderSheetSettings settings = given;
   const std::vector<fs::path> planned = CheckRenderSheet(settings);
   const std::optional<DicomStudy> study = OpenStudy(settings.source, DicomPathsOf(settings, { settings.page }));
   CheckOutputs(planned, settings.source.scan, settings.source.surfaces);
@@ -262,6 +263,10 @@ RenderSheet(const RenderSheetSettings & settings, const Events & events, std::op
   NeedPlaces(planes, source.surfaces.rules);
   PictureScene scene = MakePictureScene(source, std::move(volume), true, events);
   OpenEnclosing(source.surfaces, {}, scene, events);
+  if (const std::vector<View> faces = ViewsOfFaces(scene.surfaces); settings.choosesViews && !faces.empty())
+  {
+    settings.views = faces;
+  }
   events.Progress("drawing the page", 0.0);
   Sheet sheet = PlanSheet(settings, scene, planes);
   const SheetPlaces places = PlacesOn(sheet);

@@ -3,6 +3,8 @@
 #include "rhombicWording.h"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 namespace rhombic
 {
@@ -92,14 +94,40 @@ OpenEnclosing(const SurfaceSelection & selection,
   }
 }
 
+std::vector<View>
+ViewsOfFaces(const std::vector<SceneSurface> & surfaces)
+{
+  constexpr double flat = 0.15; // of the second shortest side of the box
+  const LPSBox box = BoxAround(surfaces);
+  std::array<std::pair<double, std::size_t>, 3> sides;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    sides[axis] = { box.highest[axis] - box.lowest[axis], axis };
+  }
+  std::sort(sides.begin(), sides.end());
+  if (!(sides[0].first < flat * sides[1].first))
+  {
+    return {};
+  }
+  constexpr std::size_t faces[3][2]{ { 2, 3 }, { 0, 1 }, { 5, 4 } }; // of StandardViews(), for each axis
+  const auto & [first, second] = faces[sides[0].second];
+  return { StandardViews()[first], StandardViews()[second] };
+}
+
 void
 ShowFocus(const std::vector<ClipPlane> & cuts,
           RenderScanSettings & settings,
           PictureScene & scene,
           const Events & events)
 {
+  const bool choosesView = settings.choosesViews && settings.turntable == 0;
   if (settings.focus.empty())
   {
+    if (const std::vector<View> faces = ViewsOfFaces(scene.surfaces); choosesView && !faces.empty())
+    {
+      settings.views = { faces.front() };
+      events.Note("flat surfaces: " + faces.front().name + " view of their faces");
+    }
     return;
   }
   std::vector<bool> isFocus;
@@ -108,7 +136,7 @@ ShowFocus(const std::vector<ClipPlane> & cuts,
     isFocus.push_back(FitsPattern(settings.focus, surface.name));
   }
   const Scene shown = SceneOf(scene, cuts);
-  if (settings.choosesView && settings.turntable == 0)
+  if (choosesView)
   {
     settings.views = { FindBestView(shown, isFocus) };
   }
@@ -125,7 +153,7 @@ ShowFocus(const std::vector<ClipPlane> & cuts,
   Report & report = scene.report["focus"];
   report["opened"] = opened;
   std::string note = "focus on " + settings.focus;
-  if (settings.choosesView && settings.turntable == 0)
+  if (choosesView)
   {
     report["view"] = views.front().name;
     note += ": " + views.front().name + " view, in which most of it is seen";
