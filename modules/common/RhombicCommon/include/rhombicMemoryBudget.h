@@ -2,6 +2,7 @@
 #define rhombicMemoryBudget_h
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 
 namespace rhombic
@@ -10,9 +11,13 @@ namespace rhombic
 /** \file
  * Limits of memory, in bytes. Each call asks the system for the free memory anew. */
 
-/** Bytes that can be used without swapping, as Linux estimates (MemAvailable); 0 when the system does not report it. */
+/** Bytes that the process can still use: the least of what is free without swapping, as Linux estimates (MemAvailable),
+ * of what the control groups of the process leave (cgroups, version 1 or 2; clusters limit jobs by them), without pages
+ * of files that the system can drop, and of what its limit of address space leaves (ulimit -v). 0 when nothing of that
+ * is known.
+ * \param root of /proc and /sys; another one for tests */
 std::uintmax_t
-FreeMemory();
+FreeMemory(const std::filesystem::path & root = "/");
 
 /** The memory that work may take: \a limit, or half of FreeMemory() when that is 0. Unlimited when the free memory is
  * not known. */
