@@ -75,6 +75,11 @@ public:
                    double maximumSquaredDistance = std::numeric_limits<double>::infinity(),
                    double enoughSquaredDistance = -1.0) const;
 
+  /** The distance in mm, above \a least, at which a ray from \a position first leaves the surface: through the
+   * clockwise side of a triangle; infinite if it leaves no triangle. \param direction of length 1 */
+  double
+  FindExit(const PositionType & position, const PositionType & direction, double least) const;
+
   /** The point of one triangle nearest to \a position. */
   PositionType
   FindClosestPointOfTriangle(const PositionType & position, std::uint32_t triangle) const;

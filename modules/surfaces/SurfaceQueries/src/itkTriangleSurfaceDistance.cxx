@@ -72,18 +72,6 @@ ShareWithin(std::array<double, 3> corners, double value)
   return 1.0 - (high - value) * (high - value) / ((high - middle) * (high - low));
 }
 
-double
-MeanSide(const TriangleSurface & surface)
-{
-  double sum = 0.0;
-  for (const auto & triangle : surface.GetTriangles())
-  {
-    const CornersType corners = CornersOf(surface, triangle);
-    sum += Distance(corners[0], corners[1]) + Distance(corners[1], corners[2]) + Distance(corners[2], corners[0]);
-  }
-  return sum / std::max(1.0, 3.0 * static_cast<double>(surface.GetNumberOfTriangles()));
-}
-
 /** The distance of each point that every \a step-th triangle uses, in mm; 0 for the others. */
 std::vector<float>
 MeasurePoints(const TriangleSurface & surface, const TriangleTree & other, std::size_t step)
@@ -362,7 +350,7 @@ ComputeTriangleSurfaceDistances(const TriangleSurface & first,
                                 SizeValueType mostTriangles)
 {
   TriangleSurfaceDistanceSettings settings;
-  settings.longestSide = 2.0 * std::min(MeanSide(first), MeanSide(second));
+  settings.longestSide = 2.0 * std::min(MeanSideOf(first), MeanSideOf(second));
   settings.mostTriangles = mostTriangles;
   return { ComputeTriangleSurfaceDistance(first, TriangleTree(second), settings),
            ComputeTriangleSurfaceDistance(second, TriangleTree(first), settings) };

@@ -226,6 +226,55 @@ AllTriangles(const TriangleSurface & surface)
   return triangles;
 }
 
+/** Whether a ray meets a box within \a most mm. */
+bool
+IsOnRay(const TriangleTree::Box & box, const PositionType & position, const PositionType & direction, double most)
+{
+  double begin = 0.0;
+  double end = most;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    const double low = box.lowest[axis] - position[axis];
+    const double high = box.highest[axis] - position[axis];
+    if (direction[axis] == 0.0)
+    {
+      if (low > 0.0 || high < 0.0)
+      {
+        return false;
+      }
+      continue;
+    }
+    const double first = low / direction[axis];
+    const double second = high / direction[axis];
+    begin = std::max(begin, std::min(first, second));
+    end = std::min(end, std::max(first, second));
+  }
+  constexpr double rounding = 1e-9; // of the divisions
+  return begin <= end + rounding * (1.0 + std::abs(end));
+}
+
+/** The distance at which a ray leaves through a triangle's clockwise side, its edges included; infinite if it does not.
+ * Moeller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997. */
+double
+FindExitThrough(const CornersType & corners, const PositionType & position, const PositionType & direction)
+{
+  constexpr double none = std::numeric_limits<double>::infinity();
+  const PositionType first = Subtract(corners[1], corners[0]);
+  const PositionType second = Subtract(corners[2], corners[0]);
+  const PositionType across = Cross(direction, second);
+  const double determinant = Dot(first, across); // above 0 where the ray meets the counter-clockwise side
+  if (!(determinant < 0.0))
+  {
+    return none;
+  }
+  const PositionType toRay = Subtract(position, corners[0]);
+  const double u = Dot(toRay, across) / determinant;
+  const PositionType turned = Cross(toRay, first);
+  const double v = Dot(direction, turned) / determinant;
+  constexpr double rounding = 1e-9; // so that no ray passes between two triangles
+  return u < -rounding || v < -rounding || u + v > 1.0 + rounding ? none : Dot(second, turned) / determinant;
+}
+
 } // namespace
 
 /** \class TriangleTree::Builder
@@ -465,6 +514,29 @@ TriangleTree::FindClosestPoint(const PositionType & position,
     node = farther[--size].node;
     squaredDistance = farther[size].squaredDistance;
   }
+}
+
+double
+TriangleTree::FindExit(const PositionType & position, const PositionType & direction, double least) const
+{
+  double nearest = std::numeric_limits<double>::infinity();
+  this->VisitNodes([&](const Node & node) {
+    if (!IsOnRay(m_Nodes[node.id].box, position, direction, nearest))
+    {
+      return false;
+    }
+    if (node.IsLeaf())
+    {
+      for (const std::uint32_t triangle : this->GetLeaf(node.begin))
+      {
+        const double exit =
+          FindExitThrough(CornersOf(*m_Surface, m_Surface->GetTriangles()[triangle]), position, direction);
+        nearest = exit > least ? std::min(nearest, exit) : nearest;
+      }
+    }
+    return true;
+  });
+  return nearest;
 }
 
 TriangleTree::PositionType

@@ -4,6 +4,8 @@
 #include "itkTriangleSurface.h"
 #include "rhombicVector3.h"
 
+#include <algorithm>
+
 namespace itk
 {
 
@@ -59,6 +61,19 @@ inline PositionType
 AreaVector(const CornersType & corners)
 {
   return Cross(Subtract(corners[1], corners[0]), Subtract(corners[2], corners[0]));
+}
+
+/** The mean length of the triangles' sides in mm; 0 without triangles. */
+inline double
+MeanSideOf(const TriangleSurface & surface)
+{
+  double sum = 0.0;
+  for (const auto & triangle : surface.GetTriangles())
+  {
+    const CornersType corners = CornersOf(surface, triangle);
+    sum += Distance(corners[0], corners[1]) + Distance(corners[1], corners[2]) + Distance(corners[2], corners[0]);
+  }
+  return sum / std::max(1.0, 3.0 * static_cast<double>(surface.GetNumberOfTriangles()));
 }
 
 /** The side of the plane through \a a, \a b and \a c on which \a d lies: 1 in front of the triangle's counter-clockwise
