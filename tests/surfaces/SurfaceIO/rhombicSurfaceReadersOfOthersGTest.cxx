@@ -20,7 +20,9 @@
 #include <vtkTriangleFilter.h>
 #include <vtkXMLPolyDataReader.h>
 
+#include <cmath>
 #include <cstdlib>
+#include <limits>
 
 namespace
 {
@@ -157,6 +159,81 @@ TEST_F(SurfaceReadersOfOthers, VTKFindsNormalsColoursAndFields)
   EXPECT_EQ(opacities->GetComponent(1, 0), 0.3);
 }
 
+/** Two spheres whose points have numbers and colours: dark ones, which linear colours of 8 bits would lose. */
+std::vector<SceneSurface>
+MakeNumberedScene()
+{
+  std::vector<SceneSurface> scene = MakeScene();
+  scene.resize(2);
+  for (SceneSurface & surface : scene)
+  {
+    surface.label = 3; // surfaces of labels share no walls here
+    rhombic::PointValues values{ "thickness, mm", {} };
+    std::vector<std::array<std::uint8_t, 3>> colours;
+    for (std::size_t n = 0; n < surface.surface->GetNumberOfPoints(); ++n)
+    {
+      values.values.push_back(0.25f * static_cast<float>(n));
+      colours.push_back({ static_cast<std::uint8_t>(n % 256), 7, static_cast<std::uint8_t>(255 - n % 256) });
+    }
+    values.values.front() = std::numeric_limits<float>::quiet_NaN();
+    surface.pointValues = std::make_shared<rhombic::PointValues>(values);
+    surface.pointColours = std::make_shared<std::vector<std::array<std::uint8_t, 3>>>(colours);
+  }
+  return scene;
+}
+
+TEST_F(SurfaceReadersOfOthers, VTKFindsColoursAndNumbersOfPoints)
+{
+  const auto scene = MakeNumberedScene();
+  const std::size_t first = scene[0].surface->GetNumberOfPoints();
+  for (const char * const extension : { ".ply", ".vtp", ".glb" })
+  {
+    WriteSurfaces(scene, this->PathOf(extension));
+  }
+  const auto ply = ReadWith<vtkPLYReader>(this->PathOf(".ply"));
+  auto * const bytes = ply->GetPointData()->GetArray("RGBA");
+  ASSERT_NE(bytes, nullptr);
+  EXPECT_EQ(bytes->GetComponent(20, 0), 20);
+  EXPECT_EQ(bytes->GetComponent(static_cast<vtkIdType>(first) + 9, 2), 246);
+  EXPECT_EQ(bytes->GetComponent(static_cast<vtkIdType>(first) + 9, 3), 77) << "opacity 0.3";
+
+  const auto vtp = ReadWith<vtkXMLPolyDataReader>(this->PathOf(".vtp"));
+  auto * const numbers = vtp->GetPointData()->GetArray("thickness__mm");
+  ASSERT_NE(numbers, nullptr);
+  EXPECT_TRUE(std::isnan(numbers->GetComponent(0, 0)));
+  EXPECT_EQ(numbers->GetComponent(5, 0), 1.25);
+  EXPECT_EQ(numbers->GetComponent(static_cast<vtkIdType>(first) + 5, 0), 1.25);
+
+  const auto glb = ReadGLTF(this->PathOf(".glb"));
+  auto * const linear = glb->GetPointData()->GetArray("COLOR_0");
+  ASSERT_NE(linear, nullptr);
+  for (const vtkIdType point : { 1, 10, 40, 100 })
+  {
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      const double value = linear->GetComponent(point, channel) / (linear->GetDataType() == VTK_FLOAT ? 1.0 : 65535.0);
+      EXPECT_NEAR(
+        value, rhombic::SRGBToLinear((*scene[0].pointColours)[static_cast<std::size_t>(point)][channel] / 255.0), 1e-5)
+        << point;
+    }
+  }
+  EXPECT_EQ(rhombic::ReadSurfaces(this->PathOf(".vtp")).size(), 2u);
+  EXPECT_EQ(rhombic::ReadSurfaces(this->PathOf(".glb")).size(), 2u);
+  EXPECT_EQ(rhombic::ReadSurfaces(this->PathOf(".ply")).size(), 2u);
+}
+
+TEST_F(SurfaceReadersOfOthers, FormatsWithoutColoursOfPointsAreNamed)
+{
+  for (const char * const extension : { ".stl", ".obj", ".3mf" })
+  {
+    EXPECT_THROW(rhombic::CheckPointColours(this->PathOf(extension)), rhombic::Failure) << extension;
+  }
+  for (const char * const extension : { ".ply", ".vtp", ".glb" })
+  {
+    EXPECT_NO_THROW(rhombic::CheckPointColours(this->PathOf(extension))) << extension;
+  }
+}
+
 TEST_F(SurfaceReadersOfOthers, ITKReadsOBJ)
 {
   using Mesh = itk::Mesh<float, 3>;
@@ -239,6 +316,7 @@ TEST_F(SurfaceReadersOfOthers, GLTFValidatorFindsNothing)
   };
   validate(MakeScene(), SurfaceFileSpace::LPS);
   validate(MakeScene(), SurfaceFileSpace::RAS);
+  validate(MakeNumberedScene(), SurfaceFileSpace::LPS);
   const auto bare = MakeSphere(0);
   bare->GetNormals().clear();
   validate({ { "bare", bare } }, SurfaceFileSpace::LPS);

@@ -44,6 +44,10 @@ CheckSurfacePath(const std::filesystem::path & path, std::size_t numberOfSurface
 bool
 StoresNormals(const std::filesystem::path & path);
 
+/** Throws Failure(Usage) for a path whose format holds no colours or values of points: other than PLY, VTP and GLB. */
+void
+CheckPointColours(const std::filesystem::path & path);
+
 /** The files that WriteSurfaces() makes: the path, and for OBJ the file of materials. */
 std::vector<std::filesystem::path>
 SurfaceFilesOf(const std::filesystem::path & path);
@@ -56,21 +60,24 @@ SurfaceAsStored(const itk::TriangleSurface & surface, const std::filesystem::pat
 /** Writes surfaces in LPS millimetres to one file. The extension, in upper or lower case, decides the format:
  *
  * - `.stl`: binary STL; one surface without normals, three points per triangle
- * - `.ply`: binary PLY; shared points, normals, a colour per point; comments describe the surfaces
+ * - `.ply`: binary PLY; shared points, normals, a colour per point, which is that of SceneSurface::pointColours if
+ * there are any; comments describe the surfaces
  * - `.obj`: Wavefront OBJ; an object, group and material per surface; colours and opacities in a second file, `.mtl`
  * - `.vtp`: VTK's XML; a colour and the surface's number per triangle; names, colours and opacities as field data. If
  *   all surfaces are of labels, their walls, each once and without normals, with two labels per triangle in the cell
  *   array BoundaryLabels as vtkSurfaceNets3D orders them: the smaller first, 0 for outside last. Triangles are
- *   counter-clockwise seen from outside of the first
+ *   counter-clockwise seen from outside of the first. Where all surfaces have SceneSurface::pointValues, the values are
+ *   an array of the points, NaN where unknown, and walls are written for each surface
  * - `.glb`: binary glTF 2.0; a node, mesh and material per surface; the matrix of a root node converts millimetres and
- *   the patient's axes to glTF's metres with y up
+ *   the patient's axes to glTF's metres with y up. SceneSurface::pointColours are COLOR_0, linear in 16 bits, on a
+ * white material that is seen without lights (KHR_materials_unlit)
  * - `.3mf`: 3D Manufacturing Format, for printers; an object and material per surface, in millimetres, without normals.
  *   Opacities have 8 bits
  *
  * Coordinates are stored in millimetres along the axes of the settings' space, which the file names: `SPACE=LPS`, as
  * 3D Slicer expects it. Normals are written if a surface has them (PLY and VTP: if all have). Control characters and
- * invalid UTF-8 in names are replaced. All formats keep positions exactly, and colours with 8 bits. The same surfaces
- * give the same bytes, in every locale.
+ * invalid UTF-8 in names are replaced. All formats keep positions exactly, and colours with 8 bits; STL, OBJ and 3MF
+ * files hold no colours of points. The same surfaces give the same bytes, in every locale.
  *
  * The bytes of the file are read back and compared, by their CRC-32, before it appears, complete or not at all; an
  * existing file is replaced. The materials of an OBJ file appear just before it. Throws

@@ -39,16 +39,17 @@ struct SurfaceFormat
   bool holdsSeveral; ///< can hold several surfaces
   bool hasMaterials; ///< has materials in a second file
   bool hasNormals;
+  bool hasPointColours;
   void (*write)(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, OutputFile & file);
   std::vector<SceneSurface> (*read)(const InputFile & file);
 };
 
-constexpr std::array<SurfaceFormat, 6> SurfaceFormats{ { { ".stl", false, false, false, WriteSTL, ReadSTL },
-                                                         { ".ply", true, false, true, WritePLY, ReadPLY },
-                                                         { ".obj", true, true, true, WriteOBJ, ReadOBJ },
-                                                         { ".vtp", true, false, true, WriteVTP, ReadVTP },
-                                                         { ".glb", true, false, true, WriteGLB, ReadGLB },
-                                                         { ".3mf", true, false, false, Write3MF, Read3MF } } };
+constexpr std::array<SurfaceFormat, 6> SurfaceFormats{ { { ".stl", false, false, false, false, WriteSTL, ReadSTL },
+                                                         { ".ply", true, false, true, true, WritePLY, ReadPLY },
+                                                         { ".obj", true, true, true, false, WriteOBJ, ReadOBJ },
+                                                         { ".vtp", true, false, true, true, WriteVTP, ReadVTP },
+                                                         { ".glb", true, false, true, true, WriteGLB, ReadGLB },
+                                                         { ".3mf", true, false, false, false, Write3MF, Read3MF } } };
 
 template <typename TPredicate>
 std::string
@@ -212,6 +213,17 @@ bool
 StoresNormals(const fs::path & path)
 {
   return FormatOf(path, "write").hasNormals;
+}
+
+void
+CheckPointColours(const fs::path & path)
+{
+  if (!FormatOf(path, "write").hasPointColours)
+  {
+    throw Failure(FailureKind::Usage,
+                  "Cannot write " + path.string() + ": a file of this format holds no colours of points; use one of " +
+                    ListExtensions([](const SurfaceFormat & other) { return other.hasPointColours; }) + ".");
+  }
 }
 
 std::vector<fs::path>

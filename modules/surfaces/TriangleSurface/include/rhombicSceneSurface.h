@@ -13,6 +13,13 @@
 namespace rhombic
 {
 
+/** A number of each point of a surface. */
+struct PointValues
+{
+  std::string name;          ///< with the unit, for arrays of files: "thickness_mm"
+  std::vector<float> values; ///< NaN: unknown
+};
+
 /** \class SceneSurface
  * \brief A surface with its name and looks. Copies share the surface. */
 struct SceneSurface
@@ -27,6 +34,9 @@ struct SceneSurface
   /** A colour (sRGB) of each point, in place of the colour; or null. Scenes with such surfaces are drawn without their
    * lights, so that colours are seen as they are. */
   std::shared_ptr<const std::vector<std::array<std::uint8_t, 3>>> pointColours = nullptr;
+
+  /** The numbers behind the colours of points; or null. */
+  std::shared_ptr<const PointValues> pointValues = nullptr;
 };
 
 /** Several surfaces as one mesh, in which touching surfaces share their wall: equal points are one point, and a

@@ -52,7 +52,7 @@ using OrderedJson = nlohmann::ordered_json;
 using PointType = itk::TriangleSurface::PointType;
 
 /** \class GLBWriter
- * \brief Writes positions, normals and indices of each surface, and the JSON that describes them.
+ * \brief Writes positions, normals, colours and indices of each surface, and the JSON that describes them.
  *
  * Positions stay in millimetres, so that nothing is rounded; the root node's matrix converts them to metres. */
 class GLBWriter
@@ -71,6 +71,10 @@ public:
     for (const SceneSurface & item : surfaces)
     {
       this->AddSurface(item);
+      if (item.pointColours)
+      {
+        m_Json["extensionsUsed"] = { "KHR_materials_unlit" };
+      }
     }
     m_Json["buffers"].push_back({ { "byteLength", m_BufferSize } });
   }
@@ -98,7 +102,7 @@ public:
     append(glb::BinChunk);
     for (const SceneSurface & item : m_Surfaces)
     {
-      this->AppendSurface(*item.surface, file);
+      this->AppendSurface(item, file);
     }
   }
 
@@ -117,17 +121,43 @@ private:
     {
       primitive["attributes"]["NORMAL"] = this->AddVectors(surface.GetNumberOfPoints());
     }
+    if (item.pointColours)
+    {
+      const std::size_t colours = this->AddAccessor(
+        glb::UnsignedShort, "VEC4", surface.GetNumberOfPoints(), sizeof(PointColour), glb::ArrayBuffer);
+      m_Json["accessors"][colours]["normalized"] = true;
+      primitive["attributes"]["COLOR_0"] = colours;
+    }
     primitive["indices"] = this->AddAccessor(
       glb::UnsignedInt, "SCALAR", 3 * surface.GetNumberOfTriangles(), sizeof(std::uint32_t), glb::ElementArrayBuffer);
     m_Json["meshes"].push_back({ { "name", item.name }, { "primitives", OrderedJson::array({ primitive }) } });
     m_Json["materials"].push_back(MakeMaterial(item));
   }
 
+  /** Linear, in 16 bits, which dark colours need; and opaque, as the material has the opacity. */
+  using PointColour = std::array<std::uint16_t, 4>;
+
+  static PointColour
+  ToPointColour(const std::array<std::uint8_t, 3> & bytes)
+  {
+    constexpr double largest = 65535.0;
+    PointColour colour{ 0, 0, 0, 65535 };
+    for (std::size_t channel = 0; channel < 3; ++channel)
+    {
+      colour[channel] = static_cast<std::uint16_t>(std::lround(largest * SRGBToLinear(bytes[channel] / 255.0)));
+    }
+    return colour;
+  }
+
+  /** The colours of points multiply that of the material, so that is white then, and seen without lights. */
   static OrderedJson
   MakeMaterial(const SceneSurface & item)
   {
-    Colour light;
-    std::transform(item.colour.begin(), item.colour.end(), light.begin(), SRGBToLinear);
+    Colour light{ 1.0, 1.0, 1.0 };
+    if (!item.pointColours)
+    {
+      std::transform(item.colour.begin(), item.colour.end(), light.begin(), SRGBToLinear);
+    }
     OrderedJson material{ { "name", item.name },
                           { "pbrMetallicRoughness",
                             { { "baseColorFactor", { light[0], light[1], light[2], item.opacity } },
@@ -136,6 +166,10 @@ private:
     if (item.opacity < 1)
     {
       material["alphaMode"] = "BLEND";
+    }
+    if (item.pointColours)
+    {
+      material["extensions"] = { { "KHR_materials_unlit", OrderedJson::object() } };
     }
     return material;
   }
@@ -175,8 +209,9 @@ private:
   }
 
   void
-  AppendSurface(const itk::TriangleSurface & surface, OutputFile & file) const
+  AppendSurface(const SceneSurface & item, OutputFile & file) const
   {
+    const itk::TriangleSurface & surface = *item.surface;
     for (const auto & point : surface.GetPoints())
     {
       file.AppendBinary(Turned(point, m_Space));
@@ -186,6 +221,13 @@ private:
       for (const auto & normal : surface.GetNormals())
       {
         file.AppendBinary(Turned(normal, m_Space));
+      }
+    }
+    if (item.pointColours)
+    {
+      for (const auto & colour : *item.pointColours)
+      {
+        file.AppendBinary(ToPointColour(colour));
       }
     }
     for (const auto & triangle : surface.GetTriangles())

@@ -661,8 +661,8 @@ WritePLY(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, Out
   for (const SceneSurface & item : surfaces)
   {
     const auto & points = item.surface->GetPoints();
-    const auto colour = ToBytes(item.colour);
-    const std::array<std::uint8_t, 4> look{ colour[0], colour[1], colour[2], ToByte(item.opacity) };
+    const std::uint8_t opacity = ToByte(item.opacity);
+    const auto common = ToBytes(item.colour);
     for (std::size_t n = 0; n < points.size(); ++n)
     {
       file.AppendBinary(Turned(points[n], space));
@@ -670,7 +670,8 @@ WritePLY(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, Out
       {
         file.AppendBinary(Turned(item.surface->GetNormals()[n], space));
       }
-      file.AppendBinary(look);
+      const auto & [red, green, blue] = item.pointColours ? (*item.pointColours)[n] : common;
+      file.AppendBinary(std::array<std::uint8_t, 4>{ red, green, blue, opacity });
     }
   }
   std::uint32_t firstPoint = 0;

@@ -1,6 +1,7 @@
 #include "rhombicSurfaceFormats.h"
 
 #include <algorithm>
+#include <cctype>
 #include <functional>
 #include <iterator>
 #include <limits>
@@ -18,8 +19,8 @@ struct AppendedArray
 };
 
 /** \class VTPWriter
- * \brief Writes one piece with all surfaces, with the arrays as raw appended data. If all are of labels, they are
- * joined.
+ * \brief Writes one piece with all surfaces, with the arrays as raw appended data. If all are of labels, and their
+ * points have no values, they are joined.
  *
  * Format: VTK File Formats, "XML File Formats", docs.vtk.org. VTK's own writer would need a merged copy of the
  * surfaces, and reports success on a full disk. */
@@ -30,7 +31,11 @@ public:
     : m_Surfaces(surfaces)
     , m_Space(space)
   {
-    if (std::all_of(surfaces.begin(), surfaces.end(), [](const SceneSurface & item) { return item.label != 0; }))
+    m_HaveValues = std::all_of(
+      surfaces.begin(), surfaces.end(), [](const SceneSurface & item) { return item.pointValues != nullptr; });
+    const bool areLabels =
+      std::all_of(surfaces.begin(), surfaces.end(), [](const SceneSurface & item) { return item.label != 0; });
+    if (areLabels && !m_HaveValues) // on a wall, each of two surfaces has values of its own
     {
       m_Joined = JoinSurfaces(surfaces);
       m_Meshes.push_back(m_Joined.surface);
@@ -145,17 +150,50 @@ private:
   void
   AddPoints(std::string & xml)
   {
-    if (m_HaveNormals)
+    if (m_HaveNormals || m_HaveValues)
     {
-      xml += "<PointData Normals=\"Normals\">\n";
-      this->AddVectors(
-        xml, "Normals", [](const itk::TriangleSurface & mesh) -> auto & { return mesh.GetNormals(); });
+      const std::string name = m_HaveValues ? ArrayName(m_Surfaces.front().pointValues->name) : "";
+      xml += std::string("<PointData") + (m_HaveNormals ? " Normals=\"Normals\"" : "") +
+             (m_HaveValues ? " Scalars=\"" + name + "\"" : "") + ">\n";
+      if (m_HaveNormals)
+      {
+        this->AddVectors(
+          xml, "Normals", [](const itk::TriangleSurface & mesh) -> auto & { return mesh.GetNormals(); });
+      }
+      if (m_HaveValues)
+      {
+        this->AddValues(xml, name);
+      }
       xml += "</PointData>\n";
     }
     xml += "<Points>\n";
     this->AddVectors(
       xml, "Points", [](const itk::TriangleSurface & mesh) -> auto & { return mesh.GetPoints(); });
     xml += "</Points>\n";
+  }
+
+  /** A name without letters that XML needs. */
+  static std::string
+  ArrayName(std::string name)
+  {
+    std::replace_if(
+      name.begin(), name.end(), [](unsigned char letter) { return std::isalnum(letter) == 0; }, '_');
+    return name;
+  }
+
+  void
+  AddValues(std::string & xml, const std::string & name)
+  {
+    this->Add(
+      xml, "<DataArray type=\"Float32\" Name=\"" + name + "\"", sizeof(float) * m_Points, [this](OutputFile & file) {
+        for (const SceneSurface & item : m_Surfaces)
+        {
+          for (const float value : item.pointValues->values)
+          {
+            file.AppendBinary(value);
+          }
+        }
+      });
   }
 
   template <typename TGetVectors>
@@ -252,12 +290,13 @@ private:
   }
 
   const std::vector<SceneSurface> & m_Surfaces;
-  JoinedSurfaces m_Joined; ///< null if a surface is of no label
+  JoinedSurfaces m_Joined; ///< null if a surface is of no label, or points have values
   std::vector<itk::TriangleSurface::ConstPointer> m_Meshes;
   SurfaceFileSpace m_Space;
   std::uint64_t m_Points = 0;
   std::uint64_t m_Triangles = 0;
   bool m_HaveNormals = true;
+  bool m_HaveValues = false;
   std::uint64_t m_Offset = 0; ///< begin of the next array, from the start of the appended data
   std::vector<AppendedArray> m_Arrays;
 };
