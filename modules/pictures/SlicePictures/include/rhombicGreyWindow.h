@@ -2,6 +2,7 @@
 #define rhombicGreyWindow_h
 
 #include "rhombicScan.h"
+#include "rhombicScanValues.h"
 
 #include <cstdint>
 #include <map>
@@ -43,11 +44,6 @@ ParseWindow(const std::string & text);
  * AutomaticWindow(). Throws Failure(Usage) for other texts and for widths that are not above 0. */
 GreyWindow
 WindowFromText(const std::string & text, const Scan & scan);
-
-/** Whether a scan's values are taken for HU: CTs with values below -200, and scans of unknown modality with values
- * below -900. Some CTs have raw numbers instead. */
-bool
-IsInHounsfieldUnits(const Scan & scan);
 
 /** For scans in HU "soft-tissue". For other scans from the 1st to the 99th percentile of the values above the lowest
  * value, which may stand for no data. About 260 thousand values are taken, at equal distances. */

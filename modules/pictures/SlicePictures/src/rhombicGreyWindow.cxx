@@ -21,29 +21,6 @@ FindPreset(const std::string & name)
   return found == WindowPresets().end() ? nullptr : &found->second;
 }
 
-/** Up to about 260 thousand finite values of a scan, at equal distances in memory. */
-std::vector<double>
-TakeValues(const Scan & scan)
-{
-  return std::visit(
-    [](const auto & image) {
-      constexpr std::size_t most = std::size_t(1) << 18;
-      const std::size_t size = image->GetLargestPossibleRegion().GetNumberOfPixels();
-      const std::size_t step = (size / most) | 1; // odd, so that not all values are from the same columns
-      std::vector<double> values;
-      for (std::size_t n = 0; n < size; n += step)
-      {
-        const auto value = static_cast<double>(image->GetBufferPointer()[n]);
-        if (std::isfinite(value))
-        {
-          values.push_back(value);
-        }
-      }
-      return values;
-    },
-    scan.image);
-}
-
 double
 Percentile(std::vector<double> & values, double share)
 {
@@ -106,20 +83,10 @@ WindowFromText(const std::string & text, const Scan & scan)
   return window ? *window : AutomaticWindow(scan);
 }
 
-bool
-IsInHounsfieldUnits(const Scan & scan)
-{
-  constexpr double nearAir = -900.0;
-  constexpr double belowFat = -200.0; // CTs of the inside of a body have no air
-  const std::vector<double> values = TakeValues(scan);
-  const double lowest = values.empty() ? 0.0 : *std::min_element(values.begin(), values.end());
-  return scan.modality == "CT" ? lowest < belowFat : scan.modality.empty() && lowest < nearAir;
-}
-
 GreyWindow
 AutomaticWindow(const Scan & scan)
 {
-  std::vector<double> values = TakeValues(scan);
+  std::vector<double> values = TakeScanValues(scan);
   const double lowest = values.empty() ? 0.0 : *std::min_element(values.begin(), values.end());
   if (IsInHounsfieldUnits(scan))
   {

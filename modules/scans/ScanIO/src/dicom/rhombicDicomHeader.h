@@ -21,6 +21,10 @@ using DicomTag = std::uint32_t;
 #define RHOMBIC_DICOM_TAGS(VALUE, SEQUENCE, OTHER)                                                                     \
   VALUE(ImageType, 0x00080008)                                                                                         \
   VALUE(SOPClassUID, 0x00080016)                                                                                       \
+  OTHER(SeriesDate, 0x00080021)                                                                                        \
+  OTHER(AcquisitionDate, 0x00080022)                                                                                   \
+  OTHER(SeriesTime, 0x00080031)                                                                                        \
+  OTHER(AcquisitionTime, 0x00080032)                                                                                   \
   VALUE(Modality, 0x00080060)                                                                                          \
   VALUE(FrameType, 0x00089007)                                                                                         \
   VALUE(EchoTime, 0x00180081)                                                                                          \
@@ -29,9 +33,14 @@ using DicomTag = std::uint32_t;
   SEQUENCE(MREchoSequence, 0x00189114)                                                                                 \
   SEQUENCE(MRImageFrameTypeSequence, 0x00189226)                                                                       \
   SEQUENCE(CTImageFrameTypeSequence, 0x00189329)                                                                       \
+  OTHER(PatientWeight, 0x00101030)                                                                                     \
   OTHER(BodyPartExamined, 0x00180015)                                                                                  \
   VALUE(SliceThickness, 0x00180050)                                                                                    \
   VALUE(SpacingBetweenSlices, 0x00180088)                                                                              \
+  OTHER(RadiopharmaceuticalStartTime, 0x00181072)                                                                      \
+  OTHER(RadionuclideTotalDose, 0x00181074)                                                                             \
+  OTHER(RadionuclideHalfLife, 0x00181075)                                                                              \
+  OTHER(RadiopharmaceuticalStartDateTime, 0x00181078)                                                                  \
   VALUE(SeriesInstanceUID, 0x0020000e)                                                                                 \
   VALUE(SeriesNumber, 0x00200011)                                                                                      \
   VALUE(AcquisitionNumber, 0x00200012)                                                                                 \
@@ -49,6 +58,7 @@ using DicomTag = std::uint32_t;
   VALUE(Rows, 0x00280010)                                                                                              \
   VALUE(Columns, 0x00280011)                                                                                           \
   VALUE(PixelSpacing, 0x00280030)                                                                                      \
+  OTHER(CorrectedImage, 0x00280051)                                                                                    \
   VALUE(BitsAllocated, 0x00280100)                                                                                     \
   VALUE(BitsStored, 0x00280101)                                                                                        \
   VALUE(HighBit, 0x00280102)                                                                                           \
@@ -60,7 +70,10 @@ using DicomTag = std::uint32_t;
   SEQUENCE(ModalityLUTSequence, 0x00283000)                                                                            \
   SEQUENCE(PixelMeasuresSequence, 0x00289110)                                                                          \
   SEQUENCE(PixelValueTransformationSequence, 0x00289145)                                                               \
+  SEQUENCE(RadiopharmaceuticalInformationSequence, 0x00540016)                                                         \
   OTHER(Units, 0x00541001)                                                                                             \
+  OTHER(SUVType, 0x00541006)                                                                                           \
+  OTHER(DecayCorrection, 0x00541102)                                                                                   \
   VALUE(SegmentationType, 0x00620001)                                                                                  \
   SEQUENCE(SegmentSequence, 0x00620002)                                                                                \
   VALUE(SegmentNumber, 0x00620004)                                                                                     \
