@@ -23,6 +23,8 @@ struct MeshOptions
   std::string measures;
   bool audits = false;
   bool requiresWatertight = false;
+  std::string colourBy;
+  double minimumThickness = 0.0;
 };
 
 /** A number of triangles, or a percentage of the triangles as extracted. */
@@ -85,6 +87,8 @@ Mesh(const MeshOptions & options, const CommandContext & context)
   settings.measures = options.measures;
   settings.audits = options.audits;
   settings.requiresWatertight = options.requiresWatertight;
+  settings.minimumThickness = options.minimumThickness;
+  settings.colourBy = GetColourBy(options.colourBy);
   settings.provenance = options.scan.GetProvenance(*context.settings);
   settings.surfaces = GetSelection(options, options.surfaces.GetNamedPreset());
   std::vector<MadeFile> outputs;
@@ -120,6 +124,7 @@ AddMeshCommand(CommandSettings & command)
       "the mesh: " + GetSurfaceFileExtensions() + "; a file for each surface if its name holds {name}",
       OfKind(SettingKind::Output) },
     { "--space", &MeshOptions::space, "axes of the file: lps or ras, in mm", ShowingDefault },
+    { "--colour-by", &MeshOptions::colourBy, GetColourByHelp(), OfKind(SettingKind::Source) },
   };
   static const SettingsTable<MeshOptions> checks{
     { "--max-error",
@@ -138,6 +143,10 @@ AddMeshCommand(CommandSettings & command)
     { "--audit",
       &MeshOptions::audits,
       "check the files read back: closed, manifold, self-intersections, distance to the scan's isosurface" },
+    { "--min-thickness",
+      &MeshOptions::minimumThickness,
+      "warn, before printing, where and on how much area walls are thinner than so many mm",
+      Checked(CLI::PositiveNumber) },
     { "--require-watertight",
       &MeshOptions::requiresWatertight,
       "write no file with holes or other defects, but end with exit code 8; that triangles pass through each other is "

@@ -190,4 +190,24 @@ FinishTable()
   return table;
 }
 
+const char *
+GetColourByHelp()
+{
+  return "colour surfaces by numbers, with a bar in pictures; in PLY, VTP and GLB files of mesh: PET.nii.gz or a "
+         "folder (the "
+         "value of another volume there; a PET is in SUV, if DICOM says all that it needs), PET.nii.gz,max:5mm or "
+         ",mean:5mm "
+         "(of what lies so deep inwards), distance:OTHER.stl or distance:LABELS.nii.gz (signed distance to the surface "
+         "of "
+         "the same name, or to the only one), thickness (largest ball inside), curvature or curvature:3mm (mean "
+         "curvature "
+         "over so many mm); and perhaps the range and the map: pet.nii.gz,0,7,inferno (viridis, inferno, diverging)";
+}
+
+std::optional<ColourBy>
+GetColourBy(const std::string & text)
+{
+  return text.empty() ? std::nullopt : std::optional(ParseColourBy(text));
+}
+
 } // namespace rhombic

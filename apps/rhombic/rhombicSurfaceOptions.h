@@ -1,6 +1,7 @@
 #ifndef rhombicSurfaceOptions_h
 #define rhombicSurfaceOptions_h
 
+#include "rhombicColourBy.h"
 #include "rhombicEvents.h"
 #include "rhombicPresets.h"
 #include "rhombicScanSource.h"
@@ -67,6 +68,14 @@ struct SurfaceOptions
 /** The settings of several commands for parts and smoothness of surfaces; CheckSurfaceFinish() judges their values. */
 const SettingsTable<SurfaceFinish> &
 FinishTable();
+
+/** The help text of --colour-by. */
+const char *
+GetColourByHelp();
+
+/** What --colour-by names; nothing for an empty text. Throws Failure(Usage). */
+std::optional<ColourBy>
+GetColourBy(const std::string & text);
 
 } // namespace rhombic
 

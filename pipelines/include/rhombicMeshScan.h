@@ -1,6 +1,7 @@
 #ifndef rhombicMeshScan_h
 #define rhombicMeshScan_h
 
+#include "rhombicColourBy.h"
 #include "rhombicEvents.h"
 #include "rhombicScanSource.h"
 #include "rhombicSidecar.h"
@@ -25,6 +26,8 @@ struct MeshScanSettings
   std::filesystem::path measures; ///< table of measures: .csv, or .json with more; empty: none
   bool audits = false;            ///< also tests for self-intersections, and measures the deviation everywhere
   bool requiresWatertight = false;
+  std::optional<ColourBy> colourBy; ///< of the points of PLY, VTP and GLB files, in place of the surfaces' colours
+  double minimumThickness = 0.0;    ///< mm; above 0: notes and reports say where walls are thinner (FindThinParts())
   Provenance provenance;
 };
 

@@ -110,11 +110,12 @@ void
 CheckSelection(const SurfaceSelection & selection);
 
 /** Throws Failure for an output that can't be written, that is an input, or that is named twice.
- * \param source and \param selection name the inputs */
+ * \param source and \param selection name inputs, \param others more of them */
 void
 CheckOutputs(const std::vector<std::filesystem::path> & outputs,
              const ScanSource & source,
-             const SurfaceSelection & selection = {});
+             const SurfaceSelection & selection = {},
+             const std::vector<std::filesystem::path> & others = {});
 
 } // namespace rhombic
 

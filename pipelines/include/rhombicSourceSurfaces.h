@@ -9,6 +9,7 @@
 #include "rhombicSurfaceMeasures.h"
 
 #include "itkTriangleSurfaceAudit.h"
+#include "itkTriangleSurfaceThickness.h"
 
 #include <optional>
 #include <string>
@@ -50,6 +51,7 @@ struct MeshedSurface
   SurfaceMeasures measures;
   std::optional<SurfaceDeviation> deviation; ///< for isosurfaces of scans
   std::optional<itk::TriangleSurfaceAudit> audit;
+  std::optional<itk::ThinParts> thin; ///< for files, if it was asked for
 
   /** Volume of the parts that were kept, as extracted, in mm^3. For surfaces of scans. */
   double

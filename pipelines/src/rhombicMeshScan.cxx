@@ -130,12 +130,16 @@ RefuseToWrite(const std::string & why)
                 why + ", so nothing was written; leave out --require-watertight to have it all the same.");
 }
 
-/** Sets the surface's sizes, measures and deviation. For any thread. */
+/** Sets the surface's sizes, measures, thin parts and deviation. For any thread. */
 void
 Measure(const FileInspection & inspection, MeshedSurface & surface)
 {
   MeasureFinished(inspection.scan ? &*inspection.scan : nullptr, surface);
   surface.measures.isosurface = surface.parts.IsNothing() ? surface.isosurface : std::nullopt;
+  if (const double limit = inspection.settings.minimumThickness; limit > 0.0)
+  {
+    surface.thin = FindThinParts(*surface.scene.surface, itk::TriangleTree(*surface.scene.surface), limit);
+  }
   if (inspection.scan && surface.request)
   {
     constexpr std::size_t quick = 50'000; // the mean's standard error is below 0.5 % of the spread
@@ -202,6 +206,27 @@ NoteThinParts(const FileInspection & inspection, const MeshedSurface & surface)
                              " that of the scan's voxels on this side of the threshold");
     }
   }
+}
+
+/** Notes where the surface's walls are thinner than asked for. */
+void
+NoteThinWalls(const FileInspection & inspection, const MeshedSurface & surface)
+{
+  const itk::ThinParts & thin = *surface.thin;
+  const std::string limit = FormatNumber(thin.limit) + " mm";
+  if (thin.parts.empty())
+  {
+    inspection.events.Note(surface.scene.name + ": no part is thinner than " + limit);
+    return;
+  }
+  const itk::ThinPart & largest = thin.parts.front();
+  const auto & at = largest.thinnestAt;
+  inspection.events.Note("warning: " + surface.scene.name + ": " + FormatFixed(thin.area, 1) + " mm2 (" +
+                         FormatFixed(100.0 * thin.area / thin.areaOfSurface, 1) +
+                         " % of the surface) are thinner than " + limit + ", in " + Count(thin.parts.size(), "part") +
+                         "; the largest, " + FormatFixed(largest.area, 1) + " mm2, is " +
+                         FormatFixed(largest.thinnest, 2) + " mm thin at LPS " + FormatFixed(at[0], 1) + ", " +
+                         FormatFixed(at[1], 1) + ", " + FormatFixed(at[2], 1) + " mm");
 }
 
 /** Notes the distance from the scan's isosurface, and the share of points that have none near. */
@@ -286,6 +311,10 @@ StageInspected(const FileInspection & inspection,
     inspection.events.Note(SummarizeMeasures(begin[n]));
     NoteFinish(inspection, begin[n]);
     NoteThinParts(inspection, begin[n]);
+    if (begin[n].thin)
+    {
+      NoteThinWalls(inspection, begin[n]);
+    }
     if (begin[n].deviation)
     {
       NoteDeviation(inspection, begin[n]);
@@ -297,6 +326,21 @@ StageInspected(const FileInspection & inspection,
     report["surfaces"].push_back(ReportMeshedSurface(begin[n]));
   }
   AddOutput(path, "mesh", report, outputs);
+}
+
+/** Sets the colours of all surfaces; returns their report. */
+Report
+ColourMeshes(const ColourBy & by, std::vector<MeshedSurface> & surfaces, const Events & events)
+{
+  std::vector<SceneSurface> scene;
+  std::transform(
+    surfaces.begin(), surfaces.end(), std::back_inserter(scene), [](const auto & surface) { return surface.scene; });
+  const SurfaceColours colours = ColourSurfaces(by, scene, events);
+  for (std::size_t n = 0; n < surfaces.size(); ++n)
+  {
+    surfaces[n].scene = std::move(scene[n]);
+  }
+  return colours.report;
 }
 
 /** Notes the audit of the walls that labels share, and returns its report; nothing if they share none. Throws
@@ -340,6 +384,10 @@ CheckMeshScan(const MeshScanSettings & settings)
   const bool showsAll = settings.surfaces.rules.only.empty() && settings.surfaces.rules.hidden.empty();
   const std::size_t fewest = showsAll ? settings.surfaces.requests.size() + (settings.surfaces.labels ? 1 : 0) : 1;
   CheckSurfacePath(settings.mesh, HasFileForEach(settings.mesh) ? 1 : fewest);
+  if (settings.colourBy)
+  {
+    CheckPointColours(settings.mesh);
+  }
   CheckSurfaceFinish(settings.finish);
   CheckSelection(settings.surfaces);
   if (!settings.measures.empty())
@@ -352,7 +400,7 @@ CheckMeshScan(const MeshScanSettings & settings)
 std::vector<MadeFile>
 MeshScan(const MeshScanSettings & settings, const Events & events, std::optional<SourceVolume> volume)
 {
-  CheckOutputs(CheckMeshScan(settings), settings.source, settings.surfaces);
+  CheckOutputs(CheckMeshScan(settings), settings.source, settings.surfaces, InputsOf(settings.colourBy));
   LoadedSource loaded = LoadSource(settings.source, settings.surfaces, std::move(volume), events);
   CheckNumberOfSurfaces(loaded, settings);
   Report sourceReport = ReportSource(loaded, settings.source);
@@ -367,8 +415,15 @@ MeshScan(const MeshScanSettings & settings, const Events & events, std::optional
   {
     events.Note("warning: " + sentence);
   }
-  CheckOutputs(OutputsOf(PathsOf(settings.mesh, surfaces), settings), settings.source, settings.surfaces);
+  CheckOutputs(OutputsOf(PathsOf(settings.mesh, surfaces), settings),
+               settings.source,
+               settings.surfaces,
+               InputsOf(settings.colourBy));
   FinishSurfaces(making, surfaces);
+  if (settings.colourBy)
+  {
+    sourceReport["colours"] = ColourMeshes(*settings.colourBy, surfaces, events);
+  }
 
   const FileInspection inspection{ settings, loaded.scan, events };
   const std::vector<fs::path> paths = PathsOf(settings.mesh, surfaces);

@@ -298,9 +298,13 @@ CheckSelection(const SurfaceSelection & selection)
 }
 
 void
-CheckOutputs(const std::vector<fs::path> & outputs, const ScanSource & source, const SurfaceSelection & selection)
+CheckOutputs(const std::vector<fs::path> & outputs,
+             const ScanSource & source,
+             const SurfaceSelection & selection,
+             const std::vector<fs::path> & others)
 {
   std::vector<fs::path> inputs{ source.path };
+  inputs.insert(inputs.end(), others.begin(), others.end());
   if (selection.labels)
   {
     const LabelMapSource & labels = selection.labels->source;

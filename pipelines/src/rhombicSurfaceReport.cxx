@@ -4,6 +4,7 @@
 #include "rhombicOptionNames.h"
 #include "rhombicWording.h"
 
+#include <algorithm>
 #include <sstream>
 
 namespace rhombic
@@ -97,6 +98,25 @@ ToReport(const SurfaceDeviation & deviation)
            { "samples", deviation.samples },
            { "complete", deviation.isComplete },
            { "unresolved", deviation.unresolved } };
+}
+
+Report
+ToReport(const itk::ThinParts & thin)
+{
+  constexpr std::size_t most = 50;
+  Report parts = Report::array();
+  for (std::size_t n = 0; n < std::min(most, thin.parts.size()); ++n)
+  {
+    const itk::ThinPart & part = thin.parts[n];
+    parts.push_back({ { "areaInSquareMillimetres", part.area },
+                      { "thinnestInMillimetres", part.thinnest },
+                      { "thinnestAtInLPSMillimetres", part.thinnestAt } });
+  }
+  return { { "limitInMillimetres", thin.limit },
+           { "areaInSquareMillimetres", thin.area },
+           { "areaOfSurfaceInSquareMillimetres", thin.areaOfSurface },
+           { "numberOfParts", thin.parts.size() },
+           { "largestParts", parts } };
 }
 
 /** Adds the result of a step, if the step has a result. */
@@ -197,6 +217,7 @@ ReportMeshedSurface(const MeshedSurface & surface)
     report["shellsTurned"] = surface.refinement.shellsTurned;
   }
   AddStep("deviation", surface.deviation, report);
+  AddStep("thinParts", surface.thin, report);
   if (surface.audit)
   {
     report["audit"] = ReportAudit(*surface.audit);

@@ -264,6 +264,7 @@ RenderSheetOf(const RenderOptions & options, const CommandContext & context)
   }
   settings.slices = ParseAll(options.slices, ParsePlaneRequest);
   settings.slice = GetSliceSettings(options);
+  settings.colourBy = GetColourBy(options.colourBy);
   settings.style = ParseStyle(options.style, "paper");
   if (settings.style == PictureStyle::Transparent)
   {
@@ -331,7 +332,6 @@ CheckOptionsOfPage(const RenderOptions & options)
                                                    { options.hasNoLetters, "--no-letters" },
                                                    { options.isLandscape, "--landscape" },
                                                    { options.pixelsPerInch != none.pixelsPerInch, "--dpi" },
-                                                   { !options.colourBy.empty(), "--colour-by" },
                                                    { options.isNeurological, "--neurological" } };
   for (const auto & [isGiven, name] : others)
   {
@@ -371,6 +371,7 @@ RenderPageOf(const RenderOptions & options, const CommandContext & context)
   }
   settings.slices = ParseAll(options.slices, ParsePlaneRequest);
   settings.slice = GetSliceSettings(options);
+  settings.colourBy = GetColourBy(options.colourBy);
   settings.title = options.title;
   settings.hasSlices = !options.hasNoSlices;
   settings.largestSize = ParseSizeOfPage(options.largestPage);
@@ -422,10 +423,7 @@ RenderPictures(const RenderOptions & options, const CommandContext & context)
   settings.render.sameScale = options.hasSameScale;
   settings.render.ambientOcclusion = !options.hasNoShadows;
   settings.render.silhouettes = !options.hasNoSilhouettes;
-  if (!options.colourBy.empty())
-  {
-    settings.colourBy = ParseColourBy(options.colourBy);
-  }
+  settings.colourBy = GetColourBy(options.colourBy);
   settings.annotations = ParseAnnotations(options);
   settings.thumbnail = options.thumbnail;
   settings.provenance = options.scan.GetProvenance(*context.settings);
@@ -604,7 +602,6 @@ PictureTable()
                  "--background",
                  "--no-silhouettes",
                  "--perspective",
-                 "--colour-by",
                  "--no-shadows",
                  "--no-letters",
                  "--pixel-size",
@@ -658,12 +655,7 @@ FitTable()
       Excludes({ "--zoom", "--perspective", "--same-scale" }) },
     { "--same-scale", &RenderOptions::hasSameScale, "all views at the scale of the view that needs most room" },
     { "--perspective", &RenderOptions::isPerspective, "perspective instead of parallel projection" },
-    { "--colour-by",
-      &RenderOptions::colourBy,
-      "colour surfaces by numbers, with a bar: PET.nii.gz (the value of another volume there), distance:OTHER.stl or "
-      "distance:LABELS.nii.gz (signed distance to the surface of the same name, or to the only one); and perhaps the "
-      "range and the map: pet.nii.gz,0,7,inferno (viridis, inferno, diverging)",
-      OfKind(SettingKind::Source) },
+    { "--colour-by", &RenderOptions::colourBy, GetColourByHelp(), OfKind(SettingKind::Source) },
     { "--cut",
       &RenderOptions::cuts,
       "remove what lies above (axial), in front (coronal) or left of a plane (sagittal), named as for --slice, or "

@@ -83,12 +83,14 @@ struct PictureSettings
   std::vector<PlaneRequest> slices; ///< pictures of slices; of a page up to 3, and without any: axial, coronal and
                                     ///< sagittal; those without a place meet most surfaces
   SliceSettings slice;
-  bool choosesViews = false;       ///< no view was asked for: with a focus, the one standard view in which the smallest
-                                   ///< share of the focus is hidden, but none along it; of surfaces that are flat, as
-                                   ///< those of a few slices, views of their faces
-  bool writesDicom = false;        ///< also writes each picture or page as DICOM, .dcm in place of the extension (see
-                                   ///< DicomStudy); a turntable is one file
-  std::filesystem::path thumbnail; ///< the first picture or page, small, as .jpg; not of a .pdf; empty: none
+  bool choosesViews = false; ///< no view was asked for: with a focus, the one standard view in which the smallest
+                             ///< share of the focus is hidden, but none along it; of surfaces that are flat, as
+                             ///< those of a few slices, views of their faces
+  bool writesDicom = false;  ///< also writes each picture or page as DICOM, .dcm in place of the extension (see
+                             ///< DicomStudy); a turntable is one file
+  std::optional<ColourBy> colourBy; ///< of the surfaces in views, in place of their colours; with a bar of colours, of
+                                    ///< pictures in place of the legend, without light and shadows
+  std::filesystem::path thumbnail;  ///< the first picture or page, small, as .jpg; not of a .pdf; empty: none
   Provenance provenance;
 };
 
@@ -103,10 +105,8 @@ struct RenderScanSettings : PictureSettings
   std::vector<std::string> uncut;   ///< patterns of surfaces that are not cut
   std::vector<PlaneRequest> planes; ///< slices that stand in the scene
   AnnotationSettings annotations;
-  std::optional<ColourBy> colourBy; ///< of the surfaces in views, in place of their colours; with a bar of colours in
-                                    ///< place of the legend, without light and shadows
-  std::size_t turntable = 0;        ///< number of views around the patient, instead of the views; 0: none
-  std::size_t onlyPicture = 0;      ///< the number, from 1, of the only view or slice to draw; 0: all
+  std::size_t turntable = 0;     ///< number of views around the patient, instead of the views; 0: none
+  std::size_t onlyPicture = 0;   ///< the number, from 1, of the only view or slice to draw; 0: all
   std::filesystem::path picture; ///< with more than one, a view's or plane's name is added to the stem; a turntable is
                                  ///< one .gif, or numbered pictures
 };

@@ -273,6 +273,27 @@ MakePictureScene(const PictureSource & source,
   return scene;
 }
 
+void
+ColourSurfaces(const ColourBy & by, PictureScene & scene, const Events & events)
+{
+  SurfaceColours colours = ColourSurfaces(by, scene.surfaces, events);
+  for (SceneSurface & surface : scene.surfaces)
+  {
+    if (scene.surfaces.size() == 1)
+    {
+      surface.opacity = 1.0; // there is nothing behind it
+    }
+    else if (surface.opacity < 1.0)
+    {
+      events.Note("warning: " + surface.name +
+                  " is translucent, so its colours are mixed with those behind it; --draw '" + surface.name +
+                  "=1' makes it opaque");
+    }
+  }
+  scene.scale = std::move(colours.scale);
+  scene.report["colours"] = std::move(colours.report);
+}
+
 std::vector<SceneSurface>
 ShadedSurfaces(const PictureScene & scene)
 {

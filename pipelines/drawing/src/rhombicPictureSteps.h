@@ -127,9 +127,9 @@ ShowFocus(const std::vector<ClipPlane> & cuts,
           PictureScene & scene,
           const Events & events);
 
-/** Sets the colours of the points of all surfaces, the scene's scale and its report. Notes give the range. Throws
- * Failure: Geometry for a volume that reaches no surface; Usage for one with unevenly spaced slices; and those of the
- * files. */
+/** Sets the colours of the points of all surfaces, the scene's scale and its report; see the function of the same name
+ * in rhombicColourBy.h. An only surface becomes opaque; a note warns of others that are translucent, whose colours are
+ * mixed. */
 void
 ColourSurfaces(const ColourBy & by, PictureScene & scene, const Events & events);
 

@@ -48,7 +48,9 @@ DrawViews(const RenderPageSettings & settings,
           PageContent & page)
 {
   RenderSettings render = SettingsOf(settings, SideOfView);
-  const Annotations annotations = AnnotationsOf(source);
+  render.ambientOcclusion = !source.scale; // colours of numbers are seen as they are
+  Annotations annotations = AnnotationsOf(source);
+  annotations.scale = source.scale;
   render.margins = MarginsOf(annotations, render.width, render.height, settings.views.front().frame);
   auto drawn = renderer.Render(scene, render, settings.views);
   for (std::size_t n = 0; n < drawn.size(); ++n)
@@ -71,6 +73,7 @@ DrawTurntable(const RenderPageSettings & settings,
     turn.push_back(ObliqueView(360.0 * n / FramesOfTurntable, 0.0));
   }
   RenderSettings render = SettingsOf(settings, SideOfTurntable);
+  render.ambientOcclusion = !source.scale;
   render.centre = CentreOf(BoxAround(source.surfaces));
   for (RenderedView & view : renderer.Render(scene, render, turn))
   {
@@ -155,6 +158,7 @@ ContentOf(const RenderPageSettings & settings, const PictureScene & scene)
   page.facts = scene.facts;
   page.facts.push_back("made by: " + settings.provenance.software);
   page.unit = scene.unit;
+  page.scale = scene.scale;
   page.isOriented = scene.isOriented;
   page.largestSize = settings.largestSize;
   constexpr std::size_t few = 8; // need no groups
@@ -230,13 +234,17 @@ CheckRenderPage(const RenderPageSettings & settings)
 std::vector<MadeFile>
 RenderPage(const RenderPageSettings & settings, const Events & events, std::optional<SourceVolume> volume)
 {
-  CheckOutputs(CheckRenderPage(settings), settings.source.scan, settings.source.surfaces);
+  CheckOutputs(CheckRenderPage(settings), settings.source.scan, settings.source.surfaces, InputsOf(settings.colourBy));
   SurfaceRenderer renderer;
   renderer.CheckSettings(SettingsOf(settings, SideOfView));
   PictureSource source = settings.source;
   NeedPlaces(PlanesOf(settings), source.surfaces.rules);
   PictureScene scene = MakePictureScene(source, std::move(volume), settings.hasSlices, events);
   OpenEnclosing(source.surfaces, {}, scene, events);
+  if (settings.colourBy)
+  {
+    ColourSurfaces(*settings.colourBy, scene, events);
+  }
   PageContent content = ContentOf(settings, scene);
   events.Note("page: " + content.facts.back());
   Scene drawn;

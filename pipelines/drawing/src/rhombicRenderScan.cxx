@@ -650,7 +650,7 @@ RenderScan(const RenderScanSettings & given, const Events & events, std::optiona
 {
   RenderScanSettings settings = given;
   settings.render.maximumMemory = given.source.scan.lattice.maximumMemory;
-  CheckOutputs(CheckRenderScan(settings), settings.source.scan, settings.source.surfaces);
+  CheckOutputs(CheckRenderScan(settings), settings.source.scan, settings.source.surfaces, InputsOf(settings.colourBy));
   const std::vector<fs::path> paths = PlanPictures(settings);
   const std::vector<fs::path> dicomPaths = PlanDicom(settings);
   const std::optional<DicomStudy> study = OpenStudy(settings.source, dicomPaths);

@@ -69,6 +69,7 @@ PlanSheet(const RenderSheetSettings & settings, const PictureScene & scene, cons
   sheet.viewAspect = AspectOf(scene);
   sheet.rows = scene.rows;
   sheet.meanUnit = scene.unit;
+  sheet.scale = scene.scale;
   sheet.provenance = scene.facts;
   sheet.provenance.push_back("made by: " + settings.provenance.software);
   sheet.letters = settings.letters && scene.isOriented;
@@ -118,7 +119,8 @@ DrawViews(const RenderSheetSettings & settings,
   render.style = settings.style;
   render.background = PaperOf(sheet).colour;
   render.sameScale = true;
-  Annotations annotations; // the sheet draws these over the views
+  render.ambientOcclusion = !source.scale; // colours of numbers are seen as they are
+  Annotations annotations;                 // the sheet draws these over the views
   annotations.figure = false;
   annotations.textSize = PointsOfLetters * sheet.pixelsPerInch / PointsPerInch;
   annotations.letters = sheet.letters;
@@ -255,7 +257,7 @@ RenderSheet(const RenderSheetSettings & given, const Events & events, std::optio
   RenderSheetSettings settings = given;
   const std::vector<fs::path> planned = CheckRenderSheet(settings);
   const std::optional<DicomStudy> study = OpenStudy(settings.source, DicomPathsOf(settings, { settings.page }));
-  CheckOutputs(planned, settings.source.scan, settings.source.surfaces);
+  CheckOutputs(planned, settings.source.scan, settings.source.surfaces, InputsOf(settings.colourBy));
   SurfaceRenderer renderer;
   const std::vector<PlaneRequest> planes = PlanesOf(settings);
   CheckMemory(settings, planes.size(), renderer);
@@ -266,6 +268,10 @@ RenderSheet(const RenderSheetSettings & given, const Events & events, std::optio
   if (const std::vector<View> faces = ViewsOfFaces(scene.surfaces); settings.choosesViews && !faces.empty())
   {
     settings.views = faces;
+  }
+  if (settings.colourBy)
+  {
+    ColourSurfaces(*settings.colourBy, scene, events);
   }
   events.Progress("drawing the page", 0.0);
   Sheet sheet = PlanSheet(settings, scene, planes);

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,7 @@ struct Decoded
 {
   std::vector<Vector3> points;
   std::vector<std::uint32_t> corners;
+  std::vector<std::uint16_t> numbers; ///< of values
 };
 
 /** What a browser makes of a mesh's bytes. */
@@ -64,6 +66,7 @@ Decode(const PageMesh & mesh)
             0);
   for (const auto & position : positions)
   {
+    decoded.numbers.push_back(position[3]);
     decoded.points.push_back(
       Add(mesh.origin, Scaled({ double(position[0]), double(position[1]), double(position[2]) }, mesh.quantum)));
   }
@@ -208,6 +211,60 @@ TEST(InteractivePage, SharedWallsAreHeldOnce)
     shared += sheet.back != 0 ? sheet.triangles : 0;
   }
   EXPECT_EQ(shared, 1u);
+}
+
+/** The heights of points of two balls that touch, after simplification; one point has no value. */
+TEST(InteractivePage, NumbersAreThoseOfTheValuesBeforeSimplification)
+{
+  std::vector<SceneSurface> surfaces;
+  for (const double x : { 0.0, 41.0 })
+  {
+    SceneSurface ball = Named("ball", itk::example::MakeSphere(20.0, 6, { x, 0.0, 0.0 }));
+    PointValues values{ "height", {} };
+    for (const auto & point : ball.surface->GetPoints())
+    {
+      values.values.push_back(x > 0.0 ? std::numeric_limits<float>::quiet_NaN() : point[2]);
+    }
+    ball.pointValues = std::make_shared<PointValues>(values);
+    surfaces.push_back(ball);
+  }
+  PageMeshMaker maker(surfaces, ColourScale{ "viridis", -10.0, 30.0, "" });
+  maker.Simplify(2000, 0.4);
+  const PageMesh mesh = maker.Make();
+  EXPECT_LT(mesh.triangles, 5000u);
+  const Decoded decoded = Decode(mesh);
+  for (std::size_t n = 0; n < decoded.points.size(); ++n)
+  {
+    const auto & [x, y, z] = decoded.points[n];
+    const double share = std::min(1.0, std::max(0.0, (z + 10.0) / 40.0));
+    EXPECT_NEAR(decoded.numbers[n], x > 20.5 ? 0.0 : 1.0 + 254.0 * share, x > 20.5 ? 0.0 : 4.0) << x << ' ' << z;
+  }
+}
+
+TEST(InteractivePage, SurfacesWithValuesHaveTheirOwnWalls)
+{
+  std::vector<SceneSurface> surfaces{ Named("a", itk::example::MakeTetrahedron(10.0f)),
+                                      Named("b", itk::example::MakeTetrahedron(10.0f)) };
+  for (SceneSurface & surface : surfaces)
+  {
+    surface.pointValues = std::make_shared<PointValues>(PointValues{ "", std::vector<float>(4, 1.0f) });
+  }
+  const PageMesh mesh = PageMeshMaker(surfaces, ColourScale{ "viridis", 0.0, 2.0, "" }).Make();
+  EXPECT_EQ(mesh.triangles, 8u);
+  EXPECT_EQ(mesh.points, 8u);
+  EXPECT_EQ(Decode(mesh).numbers, std::vector<std::uint16_t>(8, 128));
+}
+
+TEST(InteractivePage, TheBarIsThatOfTheScale)
+{
+  PageContent content = MakeContent(nullptr);
+  content.scale = ColourScale{ "inferno", 0.0, 8.0, "SUV" };
+  const auto colours = nlohmann::json::parse(JsonOf(MakeInteractivePage(content, {}).html))["colours"];
+  EXPECT_EQ(colours["title"], "SUV");
+  EXPECT_EQ(colours["numbers"], (std::vector<std::string>{ "0", "2", "4", "6", "8" }));
+  EXPECT_EQ(colours["map"].get<std::string>().size(), 255u * 6u);
+  EXPECT_EQ(colours["map"].get<std::string>().substr(0, 6), "000004");
+  EXPECT_EQ(colours["map"].get<std::string>().substr(254 * 6), "fcffa4");
 }
 
 TEST(InteractivePage, SurfacesThatAreNoManifoldAreHeldAsTheyAre)

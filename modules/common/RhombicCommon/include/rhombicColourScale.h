@@ -24,6 +24,10 @@ struct ColourScale
 std::vector<std::string>
 GetColourMaps();
 
+/** The numbers beside a bar of the scale's colours: five at equal distances, from its lower end to its upper end. */
+std::vector<std::string>
+NumbersOnBar(const ColourScale & scale);
+
 /** The colour of a value; middle grey for NaN, which stands for no value. Between the map's fixed colours components of
  * sRGB are linear. Throws Failure(Usage) for an unknown map. */
 Colour

@@ -3,6 +3,7 @@
 #include "rhombicFailure.h"
 #include "rhombicWording.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -43,6 +44,20 @@ GetColourMaps()
     names.push_back(name);
   }
   return names;
+}
+
+std::vector<std::string>
+NumbersOnBar(const ColourScale & scale)
+{
+  constexpr int count = 5;
+  std::vector<std::string> numbers;
+  for (int n = 0; n < count; ++n)
+  {
+    const double value = scale.low + (scale.high - scale.low) * n / (count - 1);
+    const double nearZero = 1e-9 * std::max(std::abs(scale.low), std::abs(scale.high));
+    numbers.push_back(FormatNumber(std::abs(value) < nearZero ? 0.0 : value, 3));
+  }
+  return numbers;
 }
 
 Colour

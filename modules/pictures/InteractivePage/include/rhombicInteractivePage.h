@@ -1,6 +1,7 @@
 #ifndef rhombicInteractivePage_h
 #define rhombicInteractivePage_h
 
+#include "rhombicColourScale.h"
 #include "rhombicEvents.h"
 #include "rhombicGreyWindow.h"
 #include "rhombicPicture.h"
@@ -50,6 +51,9 @@ struct PageContent
   std::vector<StillPicture> slices;
   std::vector<Picture> turntable;         ///< views around the patient, from the front towards the patient's left
   std::uintmax_t largestSize = 8'000'000; ///< bytes of the page that simplification aims at
+
+  /** Of SceneSurface::pointValues, which give the colours of the surfaces that have them; with a bar. */
+  std::optional<ColourScale> scale;
 };
 
 /** What a page holds, and what was left out to keep it small. */
@@ -85,8 +89,10 @@ struct MadePage
  * Surfaces are simplified to a quarter of their triangles, or to as many as there is room for in
  * PageContent::largestSize, but no part of them is moved farther than 0.2 mm for the quarter, nor than 3.2 mm for the
  * room; slices are resampled to at most 256 x 256 x 256 samples along the patient's axes, in fewer grey levels where
- * surfaces would have too little room. A page that is too large all the same is made, with a note. The same bytes for
- * any number of threads.
+ * surfaces would have too little room. Values of points are interpolated at the points of the simplified surface, and
+ * have 255 steps from the scale's lower to its upper end; surfaces with values do not share walls, so that each has its
+ * own values there, and neighbours are simplified apart. A page that is too large all the same is made, with a note.
+ * The same bytes for any number of threads.
  *
  * Throws Failure(Usage) without surfaces. */
 MadePage

@@ -181,6 +181,19 @@ DescribeVolume(const PageVolume & volume, const PageContent & content, std::size
            { "windows", windows },        { "resampled", volume.isResampled } };
 }
 
+/** What the script has to know of the colours of numbers: 255 of them, from the scale's lower end to its upper end. */
+Json
+DescribeColours(const ColourScale & scale)
+{
+  constexpr int steps = 254;
+  std::string map;
+  for (int n = 0; n <= steps; ++n)
+  {
+    map += HexOf(ColourOf(scale, scale.low + (scale.high - scale.low) * n / steps)).substr(1);
+  }
+  return { { "title", scale.title }, { "numbers", NumbersOnBar(scale) }, { "map", map } };
+}
+
 /** Everything of a page that does not depend on its reduction. */
 struct FixedParts
 {
@@ -221,7 +234,7 @@ MakerOf(const PageContent & content)
   {
     surfaces.push_back(surface.scene);
   }
-  return PageMeshMaker(surfaces);
+  return PageMeshMaker(surfaces, content.scale);
 }
 
 /** Simplifies surfaces once for the room that they have, and goes on with larger errors only where that is too little.
@@ -354,6 +367,10 @@ FillPage(const PageContent & content,
              { "surfaces", DescribeSurfaces(content) },
              { "mesh", DescribeMesh(parts.mesh) },
              { "turntable", content.turntable.size() } };
+  if (content.scale)
+  {
+    data["colours"] = DescribeColours(*content.scale);
+  }
   if (content.scan != nullptr)
   {
     data["volume"] = DescribeVolume(parts.volume, content, parts.numberOfSliceBlocks);

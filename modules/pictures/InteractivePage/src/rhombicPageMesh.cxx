@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -21,6 +22,67 @@ namespace
 using Surface = itk::TriangleSurface;
 using Sides = std::array<std::uint32_t, 2>;
 using Position = std::array<std::uint16_t, 4>; // meshoptimizer codes multiples of 4 bytes
+
+/** All surfaces as one mesh, in which each has its own points and triangles. */
+JoinedSurfaces
+AppendSurfaces(const std::vector<SceneSurface> & surfaces)
+{
+  JoinedSurfaces joined;
+  joined.surface = Surface::New();
+  for (std::size_t n = 0; n < surfaces.size(); ++n)
+  {
+    const Surface & surface = *surfaces[n].surface;
+    const auto first = static_cast<std::uint32_t>(joined.surface->GetNumberOfPoints());
+    auto & points = joined.surface->GetPoints();
+    points.insert(points.end(), surface.GetPoints().begin(), surface.GetPoints().end());
+    for (const auto & [a, b, c] : surface.GetTriangles())
+    {
+      joined.surface->GetTriangles().push_back({ first + a, first + b, first + c });
+      joined.sides.push_back({ static_cast<std::uint32_t>(n + 1), 0 });
+    }
+  }
+  return joined;
+}
+
+/** The value of a surface's point nearest to a position, linear in the triangle; NaN where a corner has none. */
+double
+ValueNear(const SceneSurface & surface,
+          const itk::TriangleTree & tree,
+          const itk::TriangleTree::PositionType & position)
+{
+  const auto nearest = tree.FindClosestPoint(position);
+  if (nearest.triangle == itk::TriangleTree::None)
+  {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  const auto & triangle = surface.surface->GetTriangles()[nearest.triangle];
+  std::array<Vector3, 3> corners;
+  for (std::size_t corner = 0; corner < 3; ++corner)
+  {
+    const auto & point = surface.surface->GetPoints()[triangle[corner]];
+    corners[corner] = { point[0], point[1], point[2] };
+  }
+  double sum = 0.0;
+  double weights = 0.0;
+  for (std::size_t corner = 0; corner < 3; ++corner) // the area opposite to a corner is its weight
+  {
+    const Vector3 & next = corners[(corner + 1) % 3];
+    const Vector3 & last = corners[(corner + 2) % 3];
+    const double weight = Length(Cross(Subtract(next, nearest.point), Subtract(last, nearest.point)));
+    sum += weight * static_cast<double>(surface.pointValues->values[triangle[corner]]);
+    weights += weight;
+  }
+  return weights > 0.0 ? sum / weights : static_cast<double>(surface.pointValues->values[triangle[0]]);
+}
+
+/** The number of a value: 1 at the scale's lower end, 255 at its upper end, 0 for none. */
+std::uint16_t
+NumberOf(const ColourScale & scale, double value)
+{
+  constexpr double steps = 254.0;
+  const double share = (value - scale.low) / (scale.high - scale.low);
+  return std::isnan(share) ? 0 : static_cast<std::uint16_t>(1 + std::lround(steps * ToUnit(share)));
+}
 
 /** Triangles in the order of their sheets, and in each in the order of the vertex cache. */
 std::vector<std::uint32_t>
@@ -64,13 +126,14 @@ PlaceQuanta(const Surface & surface, PageMesh & mesh)
 }
 
 std::vector<Position>
-QuantizePoints(const Surface & surface, const PageMesh & mesh)
+QuantizePoints(const Surface & surface, const PageMesh & mesh, const std::vector<std::uint16_t> & values)
 {
   std::vector<Position> positions;
   positions.reserve(surface.GetNumberOfPoints());
   for (const auto & point : surface.GetPoints())
   {
     Position & position = positions.emplace_back(Position{});
+    position[3] = values.empty() ? 0 : values[positions.size() - 1];
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       position[axis] = static_cast<std::uint16_t>(std::lround((point[axis] - mesh.origin[axis]) / mesh.quantum));
@@ -99,9 +162,11 @@ Encode(std::vector<std::uint32_t> corners, const std::vector<Position> & positio
 
 } // namespace
 
-PageMeshMaker::PageMeshMaker(const std::vector<SceneSurface> & surfaces)
+PageMeshMaker::PageMeshMaker(const std::vector<SceneSurface> & surfaces, const std::optional<ColourScale> & scale)
+  : m_Scale(scale)
+  , m_Valued(scale ? surfaces : std::vector<SceneSurface>())
 {
-  const JoinedSurfaces joined = JoinSurfaces(surfaces);
+  const JoinedSurfaces joined = scale ? AppendSurfaces(surfaces) : JoinSurfaces(surfaces);
   std::map<Sides, std::uint32_t> numbers;
   for (const Sides & sides : joined.sides)
   {
@@ -151,6 +216,44 @@ PageMeshMaker::Simplify(std::size_t triangles, double error, const ProgressFunct
   }
 }
 
+std::vector<std::uint16_t>
+PageMeshMaker::NumberValues() const
+{
+  std::vector<std::uint16_t> numbers;
+  if (!m_Scale)
+  {
+    return numbers;
+  }
+  std::vector<std::uint32_t> owners(m_Surface->GetNumberOfPoints(), 0); // surfaces of points, from 1
+  for (std::size_t n = 0; n < m_Sheets.size(); ++n)
+  {
+    for (const std::uint32_t point : m_Surface->GetTriangles()[n])
+    {
+      owners[point] = m_Sides[m_Sheets[n]][0];
+    }
+  }
+  numbers.resize(owners.size(), 0);
+  const Surface & simplified = *m_Surface;
+  for (std::uint32_t owner = 1; owner <= m_Valued.size(); ++owner)
+  {
+    const SceneSurface & valued = m_Valued[owner - 1];
+    if (!valued.pointValues)
+    {
+      continue;
+    }
+    const itk::TriangleTree tree(*valued.surface);
+    constexpr std::size_t blockSize = 1024;
+    ForEachInBlocks(owners.size(), blockSize, [&](std::size_t n) {
+      if (owners[n] == owner)
+      {
+        const auto & point = simplified.GetPoints()[n];
+        numbers[n] = NumberOf(*m_Scale, ValueNear(valued, tree, { point[0], point[1], point[2] }));
+      }
+    });
+  }
+  return numbers;
+}
+
 PageMesh
 PageMeshMaker::Make() const
 {
@@ -167,7 +270,7 @@ PageMeshMaker::Make() const
   mesh.triangles = surface.GetNumberOfTriangles();
   PlaceQuanta(surface, mesh);
   std::vector<std::uint32_t> corners = OrderTriangles(surface, m_Sides, m_Sheets, mesh);
-  Encode(std::move(corners), QuantizePoints(surface, mesh), mesh);
+  Encode(std::move(corners), QuantizePoints(surface, mesh, this->NumberValues()), mesh);
   return mesh;
 }
 

@@ -1,12 +1,14 @@
 #ifndef rhombicPageMesh_h
 #define rhombicPageMesh_h
 
+#include "rhombicColourScale.h"
 #include "rhombicForEachBlock.h"
 #include "rhombicSceneSurface.h"
 #include "rhombicVector3.h"
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,8 +39,9 @@ struct PageMesh
   double measuredError = 0.0;      ///< mm, the largest distance where it was measured
   std::string refusal;             ///< why they were not simplified, as a sentence; empty if they were
   std::vector<PageSheet> sheets;   ///< in the order of their triangles
-  std::string pointBytes;          ///< zlib streams of meshoptimizer's codes: 4 numbers for each point, the last 0,
-  std::string triangleBytes;       ///< and 3 indices for each triangle
+  std::string pointBytes;    ///< zlib streams of meshoptimizer's codes: 4 numbers for each point, the last that of
+                             ///< its value, from 1 to 255, 0 without one,
+  std::string triangleBytes; ///< and 3 indices for each triangle
 };
 
 /** \class PageMeshMaker
@@ -46,7 +49,8 @@ struct PageMesh
 class PageMeshMaker
 {
 public:
-  explicit PageMeshMaker(const std::vector<SceneSurface> & surfaces);
+  /** \param scale of the values of points; with one, walls that surfaces share are held for each of them */
+  explicit PageMeshMaker(const std::vector<SceneSurface> & surfaces, const std::optional<ColourScale> & scale = {});
 
   std::size_t
   GetNumberOfTriangles() const;
@@ -60,12 +64,18 @@ public:
   Make() const;
 
 private:
+  /** The numbers of the values of points of the simplified surface: those of the nearest points before. */
+  std::vector<std::uint16_t>
+  NumberValues() const;
+
   itk::TriangleSurface::ConstPointer m_Original;
   itk::TriangleSurface::Pointer m_Surface;
   std::vector<std::array<std::uint32_t, 2>> m_Sides; ///< surfaces of the sheets
   std::vector<std::uint32_t> m_Sheets;               ///< of the triangles
   double m_Error = 0.0;
   std::string m_Refusal;
+  std::optional<ColourScale> m_Scale;
+  std::vector<SceneSurface> m_Valued; ///< the surfaces, if there is a scale
 };
 
 } // namespace rhombic

@@ -95,6 +95,14 @@ function coarsen(points, triangles, { low, high }, cell) {
   return coarse.slice(0, count);
 }
 
+/** Three bytes for each number of a point: 0 is grey, for no value, 1 to 255 are the colours of the scale. */
+function coloursOf(numbers) {
+  const bytes = Uint8Array.from(page.colours.map.match(/../g), (text) => parseInt(text, 16));
+  const colours = new Uint8Array(3 * numbers.length);
+  numbers.forEach((number, n) => colours.set(number > 0 ? bytes.subarray(3 * number - 3, 3 * number) : [128, 128, 128], 3 * n));
+  return colours;
+}
+
 /** Gives each surface its own points (LPS mm) and triangles; walls that two surfaces share are in both. */
 async function readOrgans(organs) {
   const { numbers, triangles } = await readMesh();
@@ -123,13 +131,16 @@ async function readOrgans(organs) {
       }
     }
     const points = new Float32Array(3 * count);
+    const values = new Uint16Array(page.colours ? count : 0);
     for (let n = 0; n < count; n++) {
       const point = used[n];
       places[point] = -1;
+      if (page.colours) values[n] = numbers[4 * point + 3];
       for (let axis = 0; axis < 3; axis++) points[3 * n + axis] = origin[axis] + quantum * numbers[4 * point + axis];
     }
     await turns.rest();
     const box = boxOf(points);
+    if (page.colours) organ.colours = coloursOf(values);
     Object.assign(organ, { points, box, triangles: corners, normals: normalsOf(points, corners), coarse: corners });
     await turns.rest();
     if (page.mesh.triangles > trianglesOfFastScenes) organ.coarse = coarsen(points, corners, box, length(page.mesh.extent) / 180);

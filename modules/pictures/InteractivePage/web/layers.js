@@ -60,12 +60,28 @@ function describeView(azimuth, elevation) {
   return 'The structures, seen ' + (view ? 'from ' + view.from : `${round}\u00b0 from the front towards the left, ${Math.round(elevation)}\u00b0 up`);
 }
 
+/** The bar of the colours beside the scene, with its numbers. */
+function showBar({ title, numbers, map }) {
+  const canvas = make('canvas', { width: 1, height: map.length / 6, ariaHidden: 'true' });
+  const context = canvas.getContext('2d');
+  map.match(/.{6}/g).forEach((colour, n) => {
+    context.fillStyle = '#' + colour;
+    context.fillRect(0, canvas.height - 1 - n, 1, 1);
+  });
+  const labels = make('div', {}, ...[...numbers].reverse().map((number) => make('span', { textContent: number })));
+  const bar = document.getElementById('colours');
+  bar.append(make('b', { textContent: title }), make('div', {}, canvas, labels));
+  bar.setAttribute('aria-label', `Colours: ${title}, from ${numbers[0]} to ${numbers[numbers.length - 1]}`);
+  bar.hidden = false;
+}
+
 /** Changes between the turntable and the 3D scene, also when the context is lost and restored. */
 class Layers {
   constructor(viewer) {
     this.viewer = viewer;
     this.turntable = new Turntable(viewer);
     this.canvas = document.getElementById('canvas');
+    if (page.colours) showBar(page.colours);
     this.canvas.addEventListener('webglcontextlost', (event) => {
       event.preventDefault();
       this.usePictures('the browser has taken back its graphics memory; 3D comes back when it gives it again');

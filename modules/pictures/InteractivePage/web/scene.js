@@ -5,14 +5,17 @@
 const surfaceVertex = `#version 300 es
 in vec3 point;
 in vec3 normal;
+in vec3 own;
 uniform mat4 clipFromPoint;
 uniform mat3 viewFromNormal;
 out vec3 place;
 out vec3 direction;
+out vec3 ownColour;
 invariant gl_Position;
 void main() {
   gl_Position = clipFromPoint * vec4(point, 1.0);
   place = point;
+  ownColour = own;
   direction = viewFromNormal * normal;
 }`;
 
@@ -21,6 +24,7 @@ precision highp float;
 precision highp sampler2D;
 in vec3 place;
 in vec3 direction;
+in vec3 ownColour; // of the point, seen without lights
 uniform vec4 cut; // normal to the side that is removed, and offset; a normal of 0 removes nothing
 uniform mat3 viewFromNormal;
 uniform vec4 colour;
@@ -28,6 +32,7 @@ uniform vec4 light; // strength of key, fill, sky and rim
 uniform vec2 shine; // of wide and narrow highlights
 uniform float glow;
 uniform bool isSmooth;
+uniform bool hasOwnColours;
 uniform bool isTranslucent;
 uniform sampler2D nearWall;
 out vec4 result;
@@ -48,6 +53,10 @@ void main() {
   vec3 n = isSmooth ? normalize(direction) : normalize(viewFromNormal * cross(dFdx(place), dFdy(place)));
   if (isSmooth ? !gl_FrontFacing : n.z < 0.0) n = -n;
   float alpha = isTranslucent ? 1.0 - pow(1.0 - colour.a, 1.0 / max(abs(n.z), 0.15)) : 1.0;
+  if (hasOwnColours) {
+    result = vec4(mix(ownColour, vec3(1.0), glow), alpha);
+    return;
+  }
   vec3 base = mix(gl_FrontFacing ? colour.rgb : 0.85 * colour.rgb, vec3(1.0), glow);
   result = vec4(lit(base, n), alpha);
 }`;
@@ -210,6 +219,7 @@ function makeProgram(gl, vertex, fragment) {
   }
   gl.bindAttribLocation(program, 0, 'point');
   gl.bindAttribLocation(program, 1, 'normal');
+  gl.bindAttribLocation(program, 2, 'own');
   gl.linkProgram(program);
   if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) {
     throw new Error(gl.getProgramInfoLog(program) || 'a shader was refused');
@@ -265,7 +275,8 @@ class Scene {
 
   loadOrgan(organ) {
     const gl = this.gl;
-    const buffers = [organ.points, organ.normals].map((values) => {
+    const [colours, ...buffers] = [organ.colours, organ.points, organ.normals].map((values) => {
+      if (!values) return null;
       const buffer = gl.createBuffer();
       gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
       gl.bufferData(gl.ARRAY_BUFFER, values, gl.STATIC_DRAW);
@@ -279,6 +290,11 @@ class Scene {
         gl.enableVertexAttribArray(place);
         gl.vertexAttribPointer(place, 3, gl.FLOAT, false, 0, 0);
       });
+      if (colours) {
+        gl.bindBuffer(gl.ARRAY_BUFFER, colours);
+        gl.enableVertexAttribArray(2);
+        gl.vertexAttribPointer(2, 3, gl.UNSIGNED_BYTE, true, 0, 0);
+      }
       gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
       gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, triangles, gl.STATIC_DRAW);
       gl.bindVertexArray(null);
@@ -387,6 +403,7 @@ class Scene {
     gl.uniform2f(u.shine, ...(organ.glossy ? look.glossy : look.shine));
     gl.uniform1f(u.glow, organ.number === marked ? 0.18 : 0);
     gl.uniform1i(u.isSmooth, organ.smooth ? 1 : 0);
+    gl.uniform1i(u.hasOwnColours, organ.colours ? 1 : 0);
     gl.uniform1i(u.isTranslucent, organ.shown < 1 ? 1 : 0);
     gl.uniform1i(u.nearWall, 0);
     this.drawOrgan(organ);
@@ -524,7 +541,7 @@ class Scene {
     gl.uniform1i(this.darken.uniforms.shades, 1);
     gl.uniform2f(this.darken.uniforms.lens, ...camera.lens);
     gl.uniform1f(this.darken.uniforms.alike, 0.006 * state.scale * (this.canvas.clientWidth + this.canvas.clientHeight) / 2);
-    gl.uniform2f(this.darken.uniforms.strengths, ...look.strengths);
+    gl.uniform2f(this.darken.uniforms.strengths, page.colours ? 0 : look.strengths[0], look.strengths[1]); // colours are numbers
     gl.activeTexture(gl.TEXTURE1);
     gl.bindTexture(gl.TEXTURE_2D, this.shades);
     gl.activeTexture(gl.TEXTURE0);

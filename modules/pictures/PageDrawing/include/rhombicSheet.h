@@ -3,6 +3,7 @@
 
 #include "rhombicAnnotations.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,7 @@ struct Sheet
   bool isLandscape = false;
   bool isDark = false;
   double pixelsPerInch = 200.0;
+  std::optional<ColourScale> scale; ///< of the surfaces in views; a bar at their right
 };
 
 /** Where a sheet's pictures go on its first page, in pixels. */
@@ -55,6 +57,7 @@ struct SheetPlaces
   std::vector<Rectangle> views;
   std::vector<Rectangle> slices;
   double sliceScale = 0.0; ///< pixels per mm of all slices, each in the middle of its place; 0: each fits its place
+  Rectangle bar;           ///< of Sheet::scale
 };
 
 /** The places of Sheet::views and Sheet::slices. All members of the sheet but the pictures' pixels decide about the

@@ -1,7 +1,5 @@
 #include "rhombicColourBar.h"
 
-#include "rhombicWording.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +8,6 @@ namespace rhombic
 namespace
 {
 
-constexpr int NumbersOfBar = 5;
 constexpr double BarWidth = 1.3;       // of the text's size, and next
 constexpr double BarGap = 0.6;         // between the bar and its numbers
 constexpr double MostBarHeight = 20.0; // of the bar
@@ -22,13 +19,11 @@ ColourBarLayout
 FitColourBar(const Drawing & drawing, const ColourScale & scale, const TextStyle & style)
 {
   ColourBarLayout layout;
+  layout.numbers = NumbersOnBar(scale);
   double widest = 0.0;
-  for (int n = 0; n < NumbersOfBar; ++n)
+  for (const std::string & number : layout.numbers)
   {
-    const double value = scale.low + (scale.high - scale.low) * n / (NumbersOfBar - 1);
-    const double nearZero = 1e-9 * std::max(std::abs(scale.low), std::abs(scale.high));
-    layout.numbers.push_back(FormatNumber(std::abs(value) < nearZero ? 0.0 : value, 3));
-    widest = std::max(widest, drawing.WidthOf(layout.numbers.back(), style));
+    widest = std::max(widest, drawing.WidthOf(number, style));
   }
   const double bar = (BarWidth + BarGap) * style.size + widest;
   layout.width = std::max(bar, drawing.WidthOf(scale.title, style));

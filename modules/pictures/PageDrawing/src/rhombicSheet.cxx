@@ -1,5 +1,6 @@
 #include "rhombicSheetPlan.h"
 
+#include "rhombicColourBar.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
@@ -35,6 +36,12 @@ public:
     m_Pages = 1 + (count > first ? (count - first + further - 1) / further : 0);
     BeginPage(1);
     DrawPictures(m_Sheet.views, m_Plan.places.views, m_Sheet.scaleBar, m_Sheet.scaleBar);
+    if (m_Sheet.scale && !m_Sheet.views.empty())
+    {
+      const TextStyle style = TextOf(sheet::PointsOfPictures, m_Ink);
+      const ColourBarLayout layout = FitColourBar(m_Drawing, *m_Sheet.scale, style);
+      DrawColourBar(m_Drawing, *m_Sheet.scale, layout, m_Plan.places.bar, style);
+    }
     const bool hasOneScale = m_Plan.places.sliceScale > 0.0;
     DrawPictures(m_Sheet.slices, m_Plan.places.slices, m_Sheet.scaleBar, m_Sheet.scaleBar && !hasOneScale);
     std::size_t drawn = DrawTable(0, m_Plan.first);

@@ -1,5 +1,6 @@
 #include "rhombicSheetPlan.h"
 
+#include "rhombicColourBar.h"
 #include "rhombicFailure.h"
 #include "rhombicNameColumns.h"
 
@@ -106,6 +107,16 @@ SceneWidthIn(double width, double height, double beside, double aspect)
   return std::min(width - 2.0 * beside, (height - 2.0 * RoomForLetters) / aspect);
 }
 
+/** The width of the bar of colours; 0 without one. */
+double
+RoomForBar(const Sheet & s)
+{
+  constexpr double millimetresPerInch = 25.4;
+  TextStyle style;
+  style.size = PointsOfPictures * s.pixelsPerInch / 72.0;
+  return s.scale ? FitColourBar(Drawing(1, 1), *s.scale, style).width * millimetresPerInch / s.pixelsPerInch : 0.0;
+}
+
 /** Places the views in one row or two at the top of an area. Returns the bottom edge of the views and captions. */
 double
 PlaceViews(const Sheet & s, const Rectangle & area, std::vector<Rectangle> & places)
@@ -187,7 +198,10 @@ PlacePictures(const Sheet & s, const Rectangle & area, int rows, SheetPlaces & p
   const Rectangle largest{ area.left, area.top, area.width, area.height - row - CaptionHeight - Gap };
   const double height = PlaceSlices(s, largest, largest.height - (rows - 1) * row, places);
   const double slices = s.slices.empty() ? 0.0 : height + CaptionHeight + Gap;
-  const double top = PlaceViews(s, { area.left, area.top, area.width, area.height - slices }, places.views);
+  const double bar = RoomForBar(s);
+  const double beside = bar > 0.0 ? bar + Gap : 0.0;
+  const double top = PlaceViews(s, { area.left, area.top, area.width - beside, area.height - slices }, places.views);
+  places.bar = { area.Right() - bar, area.top, bar, top - area.top - CaptionHeight - Gap };
   for (Rectangle & place : places.slices)
   {
     place.top += top - area.top;
@@ -303,7 +317,8 @@ ScaleToPixels(SheetPlan & plan)
       Scale(rectangle, plan.millimetre);
     }
   }
-  for (Rectangle * const r : { &plan.content, &plan.first.area, &plan.further.area, &plan.provenance })
+  for (Rectangle * const r :
+       { &plan.content, &plan.first.area, &plan.further.area, &plan.provenance, &plan.places.bar })
   {
     Scale(*r, plan.millimetre);
   }
