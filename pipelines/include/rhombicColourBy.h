@@ -71,6 +71,15 @@ struct SurfaceColours
 SurfaceColours
 ColourSurfaces(const ColourBy & by, std::vector<SceneSurface> & surfaces, const Events & events);
 
+/** The same for signed distances to surfaces that are known already.
+ * \param others for each surface the one that its distances are measured to, or null
+ * \param range of the colours; nothing: see ColourBy::range */
+SurfaceColours
+ColourSurfacesByDistance(const std::vector<itk::TriangleSurface::ConstPointer> & others,
+                         const std::optional<std::pair<double, double>> & range,
+                         std::vector<SceneSurface> & surfaces,
+                         const Events & events);
+
 } // namespace rhombic
 
 #endif

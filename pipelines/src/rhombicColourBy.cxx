@@ -25,6 +25,8 @@ namespace
 {
 
 constexpr float NoValue = std::numeric_limits<float>::quiet_NaN();
+constexpr const char * TitleOfDistances = "distance, mm";
+constexpr const char * NameOfDistances = "distance_mm";
 
 /** Values of the points of a surface. */
 using Values = std::vector<float>;
@@ -140,7 +142,7 @@ MeasureValues(const ColourBy & by, const std::vector<SceneSurface> & surfaces, c
   switch (by.kind)
   {
     case ColourBy::Kind::Distance:
-      return { MeasureDistances(by, surfaces, events), "distance, mm", "distance_mm" };
+      return { MeasureDistances(by, surfaces, events), TitleOfDistances, NameOfDistances };
     case ColourBy::Kind::Volume:
       return NameVolume(by, SampleVolume(by, surfaces, events));
     case ColourBy::Kind::Curvature:
@@ -304,6 +306,55 @@ NoteColours(const ColourScale & scale, const Values & known, const OutsideShares
               FormatFixed(outside.above, 1) + " % above, and have the colours of its ends");
 }
 
+/** Colours surfaces by the numbers of their points. */
+SurfaceColours
+Paint(const ColourBy & by, NamedValues found, std::vector<SceneSurface> & surfaces, const Events & events)
+{
+  static const std::map<ColourBy::Kind, std::string> kinds{ { ColourBy::Kind::Volume, "volume" },
+                                                            { ColourBy::Kind::Distance, "distance" },
+                                                            { ColourBy::Kind::Curvature, "curvature" },
+                                                            { ColourBy::Kind::Thickness, "thickness" } };
+  const Values known = SortKnown(found.all);
+  if (known.empty())
+  {
+    throw Failure(FailureKind::Geometry,
+                  by.file.empty()
+                    ? "No point of the surfaces has a " + kinds.at(by.kind) +
+                        ": they are open, or have no area; repair them first."
+                    : by.file.string() + " reaches no point of the surfaces; check that it is of the same "
+                                         "patient and in the same space.");
+  }
+  SurfaceColours colours;
+  ColourScale & scale = colours.scale;
+  scale.map = !by.map.empty() ? by.map : HasTwoSides(by) ? "diverging" : "viridis";
+  std::tie(scale.low, scale.high) = FindRange(by, known);
+  scale.title = found.title;
+  std::size_t points = 0;
+  for (std::size_t n = 0; n < surfaces.size(); ++n)
+  {
+    Values & values = found.all[n];
+    points += values.size();
+    auto ofPoints = std::make_shared<std::vector<std::array<std::uint8_t, 3>>>(values.size());
+    std::transform(
+      values.begin(), values.end(), ofPoints->begin(), [&](float value) { return ToBytes(ColourOf(scale, value)); });
+    surfaces[n].pointColours = std::move(ofPoints);
+    surfaces[n].pointValues = std::make_shared<PointValues>(PointValues{ found.name, std::move(values) });
+  }
+  const OutsideShares outside = FindOutside(known, points, scale);
+  NoteColours(scale, known, outside, events);
+  colours.report = { { "by", kinds.at(by.kind) },
+                     { "title", scale.title },
+                     { "map", scale.map },
+                     { "low", scale.low },
+                     { "high", scale.high },
+                     { "lowestValue", known.front() },
+                     { "highestValue", known.back() },
+                     { "pointsBelowInPercent", outside.below },
+                     { "pointsAboveInPercent", outside.above },
+                     { "pointsWithoutValueInPercent", outside.unknown } };
+  return colours;
+}
+
 } // namespace
 
 ColourBy
@@ -357,51 +408,28 @@ InputsOf(const std::optional<ColourBy> & by)
 SurfaceColours
 ColourSurfaces(const ColourBy & by, std::vector<SceneSurface> & surfaces, const Events & events)
 {
-  static const std::map<ColourBy::Kind, std::string> kinds{ { ColourBy::Kind::Volume, "volume" },
-                                                            { ColourBy::Kind::Distance, "distance" },
-                                                            { ColourBy::Kind::Curvature, "curvature" },
-                                                            { ColourBy::Kind::Thickness, "thickness" } };
   events.Progress("colouring", 0.0);
-  NamedValues found = MeasureValues(by, surfaces, events);
-  const Values known = SortKnown(found.all);
-  if (known.empty())
-  {
-    throw Failure(FailureKind::Geometry,
-                  by.file.empty()
-                    ? "No point of the surfaces has a " + kinds.at(by.kind) +
-                        ": they are open, or have no area; repair them first."
-                    : by.file.string() + " reaches no point of the surfaces; check that it is of the same "
-                                         "patient and in the same space.");
-  }
-  SurfaceColours colours;
-  ColourScale & scale = colours.scale;
-  scale.map = !by.map.empty() ? by.map : HasTwoSides(by) ? "diverging" : "viridis";
-  std::tie(scale.low, scale.high) = FindRange(by, known);
-  scale.title = found.title;
-  std::size_t points = 0;
+  return Paint(by, MeasureValues(by, surfaces, events), surfaces, events);
+}
+
+SurfaceColours
+ColourSurfacesByDistance(const std::vector<itk::TriangleSurface::ConstPointer> & others,
+                         const std::optional<std::pair<double, double>> & range,
+                         std::vector<SceneSurface> & surfaces,
+                         const Events & events)
+{
+  events.Progress("colouring", 0.0);
+  ColourBy by;
+  by.kind = ColourBy::Kind::Distance;
+  by.range = range;
+  std::vector<Values> all;
   for (std::size_t n = 0; n < surfaces.size(); ++n)
   {
-    Values & values = found.all[n];
-    points += values.size();
-    auto ofPoints = std::make_shared<std::vector<std::array<std::uint8_t, 3>>>(values.size());
-    std::transform(
-      values.begin(), values.end(), ofPoints->begin(), [&](float value) { return ToBytes(ColourOf(scale, value)); });
-    surfaces[n].pointColours = std::move(ofPoints);
-    surfaces[n].pointValues = std::make_shared<PointValues>(PointValues{ found.name, std::move(values) });
+    const itk::TriangleSurface & surface = *surfaces[n].surface;
+    all.push_back(others[n] != nullptr ? ComputeTriangleSurfaceSignedDistances(surface, itk::TriangleTree(*others[n]))
+                                       : Values(surface.GetNumberOfPoints(), NoValue));
   }
-  const OutsideShares outside = FindOutside(known, points, scale);
-  NoteColours(scale, known, outside, events);
-  colours.report = { { "by", kinds.at(by.kind) },
-                     { "title", scale.title },
-                     { "map", scale.map },
-                     { "low", scale.low },
-                     { "high", scale.high },
-                     { "lowestValue", known.front() },
-                     { "highestValue", known.back() },
-                     { "pointsBelowInPercent", outside.below },
-                     { "pointsAboveInPercent", outside.above },
-                     { "pointsWithoutValueInPercent", outside.unknown } };
-  return colours;
+  return Paint(by, { std::move(all), TitleOfDistances, NameOfDistances }, surfaces, events);
 }
 
 } // namespace rhombic

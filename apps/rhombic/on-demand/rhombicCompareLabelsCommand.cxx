@@ -1,6 +1,7 @@
 #include "rhombicCommands.h"
 #include "rhombicCompareLabels.h"
 #include "rhombicFailure.h"
+#include "rhombicRenderAgreement.h"
 #include "rhombicScanOptions.h"
 #include "rhombicWording.h"
 
@@ -32,6 +33,8 @@ struct CompareLabelsOptions
   bool isTransformInverted = false;
   std::vector<std::string> dates;
   std::string output;
+  std::string page;
+  std::optional<double> range;
   ScanOptions scan;
 };
 
@@ -147,6 +150,7 @@ GetSettings(const CompareLabelsOptions & options, const CommandSettings & comman
     settings.days = CountDays(options.dates[0], options.dates[1]);
   }
   settings.table = options.output;
+  settings.page = options.page;
   settings.provenance = options.scan.GetProvenance(command);
   return settings;
 }
@@ -220,6 +224,15 @@ MeasureTable()
       &Options::output,
       "table of the agreement: .csv, .tsv or .json (default: printed)",
       OfKind(SettingKind::Output) },
+    { "--sheet",
+      &Options::page,
+      "also draw a page, A4: A's surfaces coloured by distance from B's, slices with both outlines, and the table, "
+      "worst labels first: .pdf, .png, .jpg or .tif",
+      OfKind(SettingKind::Output) },
+    { "--range",
+      &Options::range,
+      "largest distance in mm that has a colour of its own on the page (default: what 95 % of the points have)",
+      Needs({ "--sheet" }) },
     { "--max-memory",
       &Options::scan,
       &ScanOptions::maximumMemory,
@@ -248,12 +261,18 @@ AddCompareLabelsCommand(CommandSettings & command)
     const CompareLabelsSettings settings = GetSettings(*options, *context.settings);
     std::vector<MadeFile> outputs;
     AddOutputs(CheckCompareLabels(settings), "", outputs);
+    CheckAgreementPage(settings, options->range);
     if (context.onlyChecks)
     {
       return outputs;
     }
     const Events events = context.console->MakeEvents();
     const std::vector<LabelAgreement> agreement = CompareLabels(settings, events, outputs);
+    if (!settings.page.empty())
+    {
+      const std::vector<MadeFile> pages = RenderAgreement(settings, agreement, options->range, events);
+      outputs.insert(outputs.end(), pages.begin(), pages.end());
+    }
     if (settings.table.empty())
     {
       context.console->Finish();

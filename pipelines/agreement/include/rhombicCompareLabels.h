@@ -56,6 +56,7 @@ struct CompareLabelsSettings
   std::optional<double> days; ///< from A to B, above 0: the table has the growth of each label
 
   std::filesystem::path table; ///< .csv, .tsv or .json; empty: none
+  std::filesystem::path page;  ///< for RenderAgreement(), which needs the surfaces: they are kept; empty: none
   Provenance provenance;
 };
 
@@ -89,7 +90,10 @@ struct LabelAgreement
   std::optional<double> days;             ///< from A to B
   /** Mean distance in mm from A's surface to the surface of its voxels, below which distances mean nothing. */
   std::optional<double> noiseFloor;
-  std::optional<double> centroidShift; ///< in mm
+  std::optional<double> centroidShift;              ///< in mm
+  Colour colour{ 0.8, 0.8, 0.8 };                   ///< of the label in A, or else in B
+  itk::TriangleSurface::ConstPointer firstSurface;  ///< for pages, and next; null where the label is missing
+  itk::TriangleSurface::ConstPointer secondSurface; ///< in A's space
 };
 
 /** The days from one date to another, both written as 2025-01-31. Throws Failure(Usage) for other texts, for dates that

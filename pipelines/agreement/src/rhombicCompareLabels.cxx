@@ -459,14 +459,20 @@ private:
     agreement.tolerance = FindTolerance(m_Settings.tolerances, pair.name);
     agreement.first = MeasureVolume(m_First, pair.first);
     agreement.second = MeasureVolume(m_Second, pair.second);
+    const ComparedLabel & label = pair.first ? m_First.labels[*pair.first] : m_Second.labels[*pair.second];
+    agreement.colour = label.colour;
+    const bool keepsSurfaces = !m_Settings.page.empty();
+    const SurfacePointer first = pair.first ? m_First.surfaces[*pair.first] : nullptr;
+    const SurfacePointer second = pair.second ? BringToFirst(m_Second.surfaces[*pair.second], m_Maps) : nullptr;
+    agreement.firstSurface = keepsSurfaces ? first : nullptr;
+    agreement.secondSurface = keepsSurfaces ? second : nullptr;
     if (!pair.first || !pair.second)
     {
       agreement.status = pair.first ? AgreementStatus::MissingInSecond : AgreementStatus::MissingInFirst;
       agreement.dice = agreement.iou = 0.0;
       return agreement;
     }
-    const SurfacePointer second = BringToFirst(m_Second.surfaces[*pair.second], m_Maps);
-    agreement.surfaces = ComputeTriangleSurfaceAgreement(*m_First.surfaces[*pair.first], *second, agreement.tolerance);
+    agreement.surfaces = ComputeTriangleSurfaceAgreement(*first, *second, agreement.tolerance);
     if (m_Overlap)
     {
       const int inFirst = m_First.labels[*pair.first].value;
@@ -546,12 +552,17 @@ CheckCompareLabels(const CompareLabelsSettings & settings)
   {
     throw Failure(FailureKind::Usage, "No transform is named that could be inverted; name it with --transform.");
   }
-  if (settings.table.empty())
+  std::vector<fs::path> outputs;
+  if (!settings.table.empty())
   {
-    return {};
+    CheckAgreementPath(settings.table);
+    outputs.push_back(settings.table);
   }
-  CheckAgreementPath(settings.table);
-  return WithSidecars({ settings.table }, settings.provenance);
+  if (!settings.page.empty())
+  {
+    outputs.push_back(settings.page);
+  }
+  return WithSidecars(outputs, settings.provenance);
 }
 
 std::vector<LabelAgreement>
@@ -561,6 +572,7 @@ CompareLabels(const CompareLabelsSettings & settings, const Events & events, std
   CheckOutputs(outputs, settings.first, OtherInputs(settings.first.path, settings.firstTable, settings));
   CheckOutputs(outputs, settings.second, OtherInputs(settings.second.path, settings.secondTable, settings));
   std::vector<LabelAgreement> agreements = Comparison(settings, events).Run();
+  made.clear();
   if (!settings.table.empty())
   {
     OutputFiles files{ settings.provenance };

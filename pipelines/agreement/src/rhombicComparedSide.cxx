@@ -25,7 +25,10 @@ TakeLabels(LabelMap map, ComparedSide & side)
   for (const LabelSummary & summary : map.labels)
   {
     const Label & label = summary.label;
-    side.labels.push_back({ label.name, label.value, label.name != "label " + std::to_string(label.value) });
+    Colour colour{};
+    std::transform(
+      label.colour.begin(), label.colour.end(), colour.begin(), [](std::uint8_t channel) { return channel / 255.0; });
+    side.labels.push_back({ label.name, label.value, label.name != "label " + std::to_string(label.value), colour });
   }
   side.moments = ComputeLabelMoments(map.scan);
   side.map = std::move(map);
@@ -128,7 +131,7 @@ LoadSurfaces(const std::filesystem::path & path, const Events & events, Compared
 {
   for (const SceneSurface & surface : ReadSurfaces(path))
   {
-    side.labels.push_back({ surface.name, 0, true });
+    side.labels.push_back({ surface.name, 0, true, surface.colour });
     side.surfaces.push_back(CheckSolid(surface, path, events));
   }
   side.isSingle = side.labels.size() == 1;

@@ -16,6 +16,7 @@ struct ComparedLabel
   std::string name;
   int value = 0;        ///< 0 for surfaces of files
   bool isNamed = false; ///< otherwise the name is made from the value
+  Colour colour{ 0.8, 0.8, 0.8 };
 };
 
 /** How labels are paired: see CompareLabelsSettings. */

@@ -119,16 +119,6 @@ AddFacts(const LoadedSource & loaded, const PictureSource & source, PictureScene
   }
 }
 
-/** A box of surfaces for slices, if no grid is known. */
-SliceBox
-BoxOfSurfaces(const std::vector<SceneSurface> & surfaces)
-{
-  constexpr double spacings = 512.0; // along the longest side
-  const LPSBox box = BoxAround(surfaces);
-  const double spacing = std::max(1.0, LongestSideOf(box)) / spacings;
-  return BoxOf(box.lowest, box.highest, { spacing, spacing, spacing });
-}
-
 /** Measures finished surfaces, and adds them with their thresholds, if any are isosurfaces. */
 void
 AddSurfaces(std::vector<MeshedSurface> & surfaces, bool hasThresholds, PictureScene & scene)
@@ -249,6 +239,15 @@ MakeSceneOfFiles(const PictureSource & source, const Events & events)
 }
 
 } // namespace
+
+SliceBox
+BoxOfSurfaces(const std::vector<SceneSurface> & surfaces)
+{
+  constexpr double spacings = 512.0; // along the longest side
+  const LPSBox box = BoxAround(surfaces);
+  const double spacing = std::max(1.0, LongestSideOf(box)) / spacings;
+  return BoxOf(box.lowest, box.highest, { spacing, spacing, spacing });
+}
 
 PictureScene
 MakePictureScene(const PictureSource & source,

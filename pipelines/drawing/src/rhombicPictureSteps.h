@@ -7,6 +7,7 @@
 #include "rhombicPictureIO.h"
 #include "rhombicRenderScan.h"
 #include "rhombicSheet.h"
+#include "rhombicSurfaceRenderer.h"
 
 #include <filesystem>
 #include <map>
@@ -32,8 +33,10 @@ struct PictureScene
   std::string examination;     ///< "CT chest", "PET", "Segmentation", "Scan" if nothing is known, "Surfaces" of files
   std::string thresholds;      ///< "bone from 250.5, skin from -300.5"; empty without isosurfaces
   std::string unit;            ///< of the scan's values: "HU", "Bq/ml"; empty if unknown
-  std::vector<std::string> facts;   ///< "scan: DICOM CT, 512 x 512 x 138, ...", and so on
-  std::optional<ColourScale> scale; ///< of the surfaces' points, if they are coloured by numbers
+  std::vector<std::string> facts;         ///< "scan: DICOM CT, 512 x 512 x 138, ...", and so on
+  std::optional<ColourScale> scale;       ///< of the surfaces' points, if they are coloured by numbers
+  std::vector<SceneSurface> drawnAsLines; ///< other surfaces, of which pages show the outlines alone
+  std::vector<std::string> headings;      ///< of LegendRow::figures on pages
   Report report;
 
   /** Of planes, by PlaneRequest::place, if they are not found from the surfaces. */
@@ -50,6 +53,10 @@ MakePictureScene(const PictureSource & source,
                  bool keepsScan,
                  const Events & events,
                  const std::vector<PlaneRequest> & onlySlices = {});
+
+/** The box around surfaces, with a grid for slices where there is no scan. */
+SliceBox
+BoxOfSurfaces(const std::vector<SceneSurface> & surfaces);
 
 /** The surfaces as they are drawn in views: those without normals, as of STL files, get normals for shading. */
 std::vector<SceneSurface>
@@ -160,6 +167,17 @@ DrawSceneSlice(const PictureScene & scene,
                int height,
                const Margins & margins,
                SheetPicture & slice);
+
+/** Plans and draws the pages of a scene, and stages them with its report. Returns their pictures; of PDF only if they
+ * are needed. */
+std::vector<Picture>
+StageScenePages(const RenderSheetSettings & settings,
+                const PictureScene & scene,
+                const std::vector<PlaneRequest> & planes,
+                bool needsPictures,
+                SurfaceRenderer & renderer,
+                const Events & events,
+                OutputFiles & outputs);
 
 /** Height of a slice through the whole scene, divided by its width. */
 double

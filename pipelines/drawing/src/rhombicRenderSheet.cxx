@@ -2,6 +2,7 @@
 #include "rhombicGreyWindow.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicPictureSteps.h"
+#include "rhombicSilhouette.h"
 #include "rhombicSurfaceRenderer.h"
 #include "rhombicWording.h"
 
@@ -68,6 +69,7 @@ PlanSheet(const RenderSheetSettings & settings, const PictureScene & scene, cons
   sheet.title = settings.title.empty() ? TitleOf(scene) : settings.title;
   sheet.viewAspect = AspectOf(scene);
   sheet.rows = scene.rows;
+  sheet.headings = scene.headings;
   sheet.meanUnit = scene.unit;
   sheet.scale = scene.scale;
   sheet.provenance = scene.facts;
@@ -147,6 +149,8 @@ DrawViews(const RenderSheetSettings & settings,
     sheet.views[n].picture = std::move(drawn[n].picture);
     sheet.views[n].projection = drawn[n].projection.value();
     sheet.views[n].names = NamesOf(source, places[n], sheet.views[n].projection);
+    sheet.views[n].outlines =
+      FindSilhouettes(source.drawnAsLines, sheet.views[n].projection, InkOn(PaperOf(sheet)).colour);
   }
 }
 
@@ -251,6 +255,28 @@ CheckRenderSheet(const RenderSheetSettings & settings)
   return outputs;
 }
 
+std::vector<Picture>
+StageScenePages(const RenderSheetSettings & settings,
+                const PictureScene & scene,
+                const std::vector<PlaneRequest> & planes,
+                bool needsPictures,
+                SurfaceRenderer & renderer,
+                const Events & events,
+                OutputFiles & outputs)
+{
+  events.Progress("drawing the page", 0.0);
+  Sheet sheet = PlanSheet(settings, scene, planes);
+  const SheetPlaces places = PlacesOn(sheet);
+  DrawViews(settings, scene, places, renderer, sheet);
+  events.Progress("drawing the page", 0.7);
+  DrawSlices(settings, scene, places, sheet);
+  std::vector<Picture> pages = needsPictures || !IsPdf(settings.page) ? DrawSheet(sheet) : std::vector<Picture>();
+  const std::vector<fs::path> paths = StageSheet(sheet, pages, settings, outputs.staged);
+  AddOutput(settings.page, "page", scene.report, outputs);
+  AddOutputs({ paths.begin() + 1, paths.end() }, "page", outputs.made);
+  return pages;
+}
+
 std::vector<MadeFile>
 RenderSheet(const RenderSheetSettings & given, const Events & events, std::optional<SourceVolume> volume)
 {
@@ -273,17 +299,9 @@ RenderSheet(const RenderSheetSettings & given, const Events & events, std::optio
   {
     ColourSurfaces(*settings.colourBy, scene, events);
   }
-  events.Progress("drawing the page", 0.0);
-  Sheet sheet = PlanSheet(settings, scene, planes);
-  const SheetPlaces places = PlacesOn(sheet);
-  DrawViews(settings, scene, places, renderer, sheet);
-  events.Progress("drawing the page", 0.7);
-  DrawSlices(settings, scene, places, sheet);
   OutputFiles outputs{ settings.provenance };
-  const std::vector<Picture> pages = study || !IsPdf(settings.page) ? DrawSheet(sheet) : std::vector<Picture>();
-  const std::vector<fs::path> paths = StageSheet(sheet, pages, settings, outputs.staged);
-  AddOutput(settings.page, "page", scene.report, outputs);
-  AddOutputs({ paths.begin() + 1, paths.end() }, "page", outputs.made);
+  const std::vector<Picture> pages =
+    StageScenePages(settings, scene, planes, study.has_value(), renderer, events, outputs);
   const std::vector<fs::path> dicomPaths = DicomPathsOf(settings, PathsOfPages(settings.page, pages.size()));
   StageFilesBeside(pages, settings, study, dicomPaths, 0.0, events, outputs);
   outputs.staged.Commit();

@@ -197,6 +197,14 @@ CutScene(const PictureScene & scene,
     }
     slice.isSeen.push_back(!outlines.empty());
   }
+  constexpr Colour white{ 1.0, 1.0, 1.0 };
+  for (const SceneSurface & surface : scene.drawnAsLines)
+  {
+    for (Outline & outline : CutSurface(*surface.surface, picture.projection))
+    {
+      picture.outlines.push_back({ std::move(outline.points), white, outline.isClosed });
+    }
+  }
   const std::size_t axis = AxisOf(request.plane);
   picture.caption =
     NameOf(request.plane) + (settings.convention == SliceConvention::Neurological ? " (neurological)" : "");

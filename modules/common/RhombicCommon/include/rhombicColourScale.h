@@ -13,10 +13,11 @@ namespace rhombic
  * \brief Colours for numbers: a map of colours between two values. */
 struct ColourScale
 {
-  std::string map = "viridis"; ///< one of GetColourMaps()
-  double low = 0.0;            ///< the value of the map's first colour; lower values have it, too
-  double high = 1.0;           ///< the value of the map's last colour; higher values have it, too
-  std::string title;           ///< what the numbers are, with their unit: "distance, mm"
+  std::string map = "viridis";    ///< one of GetColourMaps()
+  double low = 0.0;               ///< the value of the map's first colour; lower values have it, too
+  double high = 1.0;              ///< the value of the map's last colour; higher values have it, too
+  std::string title;              ///< what the numbers are, with their unit: "distance, mm"
+  std::vector<double> marks = {}; ///< values that lines across a bar of the colours mark, as a tolerance
 };
 
 /** The names of all maps: viridis and inferno, which grow lighter all the way, and diverging, which is lightest in the

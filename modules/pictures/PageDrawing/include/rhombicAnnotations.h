@@ -17,10 +17,11 @@ struct LegendRow
 {
   std::string name;
   Colour colour{ 0.8, 0.8, 0.8 };
-  std::optional<double> volume; ///< ml
-  std::optional<double> area;   ///< cm2; on sheets
-  std::optional<double> mean;   ///< mean value of the scan inside the surface; on sheets
-  std::string group;            ///< heading of long legends: "bones", "vessels"; empty: "other"
+  std::optional<double> volume;     ///< ml
+  std::optional<double> area;       ///< cm2; on sheets
+  std::optional<double> mean;       ///< mean value of the scan inside the surface; on sheets
+  std::string group;                ///< heading of long legends: "bones", "vessels"; empty: "other"
+  std::vector<std::string> figures = {}; ///< on sheets with headings of their own, in place of volume, area and mean
 };
 
 /** A line over a picture, in its pixels: the edge of a surface in a slice. */
@@ -29,6 +30,7 @@ struct ColouredOutline
   std::vector<PicturePosition> points;
   Colour colour{ 1.0, 1.0, 1.0 };
   bool isClosed = true;
+  bool hasHalo = true; ///< dark, on both sides of the line
 };
 
 /** A name beside a picture, with a line to the surface that has it. */

@@ -38,6 +38,7 @@ struct Sheet
   std::vector<SheetPicture> slices; ///< up to 3; in square places, if not all of their sizes are known
   double viewAspect = 1.3;          ///< height of the scene in the views, divided by its width
   std::vector<LegendRow> rows;
+  std::vector<std::string> headings;   ///< of LegendRow::figures; empty: the rows have volume, area and mean
   std::string meanUnit;                ///< of LegendRow::mean: "HU"
   std::vector<std::string> provenance; ///< lines about scan, lattice and program; a colon ends the grey name of a value
   bool letters = true;                 ///< at the edges of the pictures

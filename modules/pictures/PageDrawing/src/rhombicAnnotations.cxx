@@ -141,6 +141,10 @@ DrawOutlines(Drawing & drawing, const Arrangement & a, double scale, const std::
   {
     for (const ColouredOutline & outline : outlines)
     {
+      if (isHalo && !outline.hasHalo)
+      {
+        continue;
+      }
       std::vector<PicturePosition> points = outline.points;
       for (PicturePosition & point : points)
       {

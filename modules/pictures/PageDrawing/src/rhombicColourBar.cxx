@@ -58,6 +58,15 @@ DrawColourBar(Drawing & drawing,
   LineStyle frame;
   frame.ink = style.ink;
   drawing.Frame(bar, frame);
+  for (const double mark : scale.marks)
+  {
+    const double share = (mark - scale.low) / (scale.high - scale.low);
+    if (share > 0.0 && share < 1.0)
+    {
+      const double y = bar.Bottom() - share * height;
+      drawing.Line({ { bar.left, y }, { bar.Right(), y } }, frame);
+    }
+  }
   for (std::size_t n = 0; n < layout.numbers.size(); ++n)
   {
     const double share = static_cast<double>(n) / static_cast<double>(layout.numbers.size() - 1);

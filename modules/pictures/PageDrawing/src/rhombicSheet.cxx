@@ -215,6 +215,10 @@ private:
   std::vector<std::string>
   FiguresOf(const LegendRow * row) const
   {
+    if (!m_Sheet.headings.empty())
+    {
+      return row ? row->figures : m_Sheet.headings;
+    }
     std::vector<std::string> figures;
     const auto add = [&](std::optional<double> LegendRow::*figure, const std::string & heading, bool isSize) {
       if (HasFigure(m_Sheet.rows, figure))

@@ -38,15 +38,23 @@ DivideUp(std::size_t a, std::size_t b)
   return (a + b - 1) / b;
 }
 
-/** How many columns fit beside each other. */
-std::size_t
-CountColumns(double width, const std::vector<LegendRow> & rows)
+/** The width of a column of the table. */
+double
+WidthOfColumn(const Sheet & s)
 {
-  double column = NameColumn;
+  std::size_t figures = s.headings.size();
   for (const auto figure : { &LegendRow::volume, &LegendRow::area, &LegendRow::mean })
   {
-    column += HasFigure(rows, figure) ? FigureColumn : 0.0;
+    figures += s.headings.empty() && HasFigure(s.rows, figure) ? 1 : 0;
   }
+  return NameColumn + FigureColumn * static_cast<double>(figures);
+}
+
+/** How many columns fit beside each other. */
+std::size_t
+CountColumns(double width, const Sheet & s)
+{
+  const double column = WidthOfColumn(s);
   return std::max<std::size_t>(1, static_cast<std::size_t>((width + 2.0 * Gap) / (column + 2.0 * Gap)));
 }
 
@@ -259,9 +267,9 @@ void
 PlanPortrait(const Sheet & s, SheetPlan & plan)
 {
   const Rectangle & content = plan.content;
-  const bool isBeside = s.rows.size() <= RowsBesideProvenance;
-  plan.first.columns = isBeside ? 1 : CountColumns(content.width, s.rows);
   const double half = 0.5 * content.width - Gap;
+  const bool isBeside = s.rows.size() <= RowsBesideProvenance && WidthOfColumn(s) <= half;
+  plan.first.columns = isBeside ? 1 : CountColumns(content.width, s);
   plan.provenanceHeights = MeasureProvenance(s, half, plan.millimetre);
   const double provenance = DivideProvenance(isBeside ? 1 : 2, plan);
   const double rows = static_cast<double>(DivideUp(plan.lines.size(), plan.first.columns));
@@ -292,7 +300,7 @@ PlanLandscape(const Sheet & s, SheetPlan & plan)
   const double provenance = DivideProvenance(1, plan);
   plan.provenance = { left, content.Bottom() - provenance, content.Right() - left, provenance };
   plan.first.area = { left, content.top, plan.provenance.width, content.height - provenance - Gap };
-  plan.first.columns = CountColumns(plan.first.area.width, s.rows);
+  plan.first.columns = CountColumns(plan.first.area.width, s);
 }
 
 void
@@ -369,7 +377,7 @@ PlanSheet(const Sheet & s)
 
   plan.further.area = plan.content;
   plan.further.area.height -= plan.isTableApart ? plan.provenance.height + Gap : 0.0;
-  plan.further.columns = CountColumns(plan.content.width, s.rows);
+  plan.further.columns = CountColumns(plan.content.width, s);
   const TableArea & table = plan.isTableApart ? plan.further : plan.first;
   const bool fits = table.columns * RowsIn(table.area.height, RowPitch) >= plan.lines.size();
   plan.rowPitch = fits ? RowPitch : TightRowPitch;
