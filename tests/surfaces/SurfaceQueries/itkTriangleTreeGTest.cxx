@@ -121,10 +121,11 @@ TEST(TriangleTree, VisitsEachTriangleWhoseBoxOverlapsOnce)
   }
 }
 
-TEST(TriangleTree, EnlargedFindsWhatANewOneFinds)
+TEST(TriangleTree, EnlargedAndRefittedFindWhatANewOneFinds)
 {
   const auto surface = MakeRandomTriangles(2000, 50.0f, 3.0f, 5);
   Tree enlarged(*surface);
+  Tree refitted(*surface);
   std::mt19937 random(6);
   std::normal_distribution<float> move(0.0f, 4.0f);
   std::vector<Tree::Box> before;
@@ -143,15 +144,19 @@ TEST(TriangleTree, EnlargedFindsWhatANewOneFinds)
   {
     enlarged.Enlarge(before[triangle], enlarged.GetTriangleBox(triangle));
   }
+  refitted.Refit();
   const Tree made(*surface);
   std::uniform_real_distribution<double> place(-5.0, 55.0);
   for (int query = 0; query < 500; ++query)
   {
     const Tree::PositionType position{ place(random), place(random), place(random) };
     const auto expected = made.FindClosestPoint(position);
-    const auto found = enlarged.FindClosestPoint(position);
-    EXPECT_EQ(found.triangle, expected.triangle);
-    EXPECT_EQ(found.point, expected.point);
+    for (const Tree * tree : { &enlarged, &refitted })
+    {
+      const auto found = tree->FindClosestPoint(position);
+      EXPECT_EQ(found.triangle, expected.triangle);
+      EXPECT_EQ(found.point, expected.point);
+    }
   }
 }
 

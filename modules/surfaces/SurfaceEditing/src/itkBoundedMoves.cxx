@@ -203,8 +203,7 @@ BoundedMoves::Retreat(std::vector<std::uint32_t> triangles)
 void
 BoundedMoves::PutBackMeeting(rhombic::StagedProgress & progress, double stageEnd)
 {
-  const TriangleTree tree(m_Surface); // keeps the places that triangles had before they are put back
-  std::vector<std::uint32_t> putBack;
+  TriangleTree tree(m_Surface);
   m_Next = m_Surface.GetPoints();
   this->BeginRetreats();
   auto meeting = FindCrossingTriangles(tree, m_Fans, TriangleContact::Touching, &progress, stageEnd);
@@ -213,12 +212,8 @@ BoundedMoves::PutBackMeeting(rhombic::StagedProgress & progress, double stageEnd
     progress.Completed(0);
     const auto latest = this->Retreat(meeting);
     m_Surface.GetPoints() = m_Next;
-    putBack.insert(putBack.end(), latest.begin(), latest.end());
-    SortUnique(putBack);
-    const TriangleTree others(m_Surface, putBack);
+    tree.Refit();
     meeting = FindCrossingTriangles(tree, m_Fans, latest, TriangleContact::Touching);
-    const auto more = FindCrossingTriangles(others, m_Fans, latest, TriangleContact::Touching);
-    meeting.insert(meeting.end(), more.begin(), more.end());
   }
 }
 

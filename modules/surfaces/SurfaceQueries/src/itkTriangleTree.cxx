@@ -438,6 +438,28 @@ TriangleTree::Enlarge(const Box & before, const Box & after)
   });
 }
 
+void
+TriangleTree::Refit()
+{
+  std::size_t leaf = this->GetNumberOfLeaves();
+  for (std::size_t id = m_Nodes.size(); id-- > 0;) // children before their parents
+  {
+    StoredNode & node = m_Nodes[id];
+    if (node.leavesOfLeft > 0)
+    {
+      node.box = m_Nodes[id + 1].box;
+      node.box.Add(m_Nodes[id + 2 * std::size_t{ node.leavesOfLeft }].box);
+      continue;
+    }
+    const Leaf triangles = this->GetLeaf(--leaf);
+    node.box = this->GetTriangleBox(*triangles.begin());
+    for (const std::uint32_t triangle : triangles)
+    {
+      node.box.Add(this->GetTriangleBox(triangle));
+    }
+  }
+}
+
 std::vector<std::size_t>
 TriangleTree::FindSubtrees(std::size_t mostTriangles) const
 {
