@@ -164,6 +164,28 @@ TEST(AntiAliasMask, HasTheSameBytesForAnyNumberOfThreads)
   EXPECT_EQ(std::memcmp(one->GetBufferPointer(), many->GetBufferPointer(), bytes), 0);
 }
 
+TEST(AntiAliasMask, WhereItIsNeededTheFieldIsThatOfTheWholeMask)
+{
+  const auto mask = MakeMask({ { 60, 40, 40 } }, [](const Index & index) {
+    return std::hypot(double(index[0] - 30), double(index[1] - 20), double(index[2] - 20)) < 14.0;
+  });
+  const auto whole = MakeField(mask);
+  const auto filter = Filter::New();
+  filter->SetInput(mask);
+  filter->SetNeeded([](const Index & first, itk::SizeValueType) { return first[0] >= 16 && first[2] >= 10; });
+  filter->Update();
+  ForEachVoxel(*mask, *filter->GetOutput(), [&](const Index & index, std::uint8_t isInside, float value) {
+    if (index[0] >= 16 && index[2] >= 14) // four voxels from where it is not needed
+    {
+      EXPECT_NEAR(std::clamp(value, -2.5f, 2.5f), std::clamp(whole->GetPixel(index), -2.5f, 2.5f), 0.02);
+    }
+    else if (index[0] < 16 || index[2] < 10)
+    {
+      EXPECT_GT(isInside != 0 ? value : -value, 2.5f);
+    }
+  });
+}
+
 TEST(AntiAliasMask, KeepsTheGeometry)
 {
   const auto mask = MakeBlobs(3);

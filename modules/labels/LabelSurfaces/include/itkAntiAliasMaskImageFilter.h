@@ -5,6 +5,7 @@
 #include "itkImageToImageFilter.h"
 
 #include <array>
+#include <functional>
 #include <cstdint>
 #include <vector>
 
@@ -98,8 +99,20 @@ public:
     return m_SamplePeriod;
   }
 
-  /** The inside voxels in no 2 x 2 x 2 block of inside voxels, and the inside voxels that were protected in the
-   * last update, by their offsets in the buffer, ascending. */
+  /** By what all Gaussians are wider than those of samples at each voxel. */
+  static double
+  FindWidening(const PeriodType & period);
+
+  using NeededType = std::function<bool(const Index<3> & first, SizeValueType length)>;
+
+  /** Tells whether the field is needed at some of \a length voxels of a row, of which \a first is the first. Where it
+   * is not, the values are those far from the border, on the mask's side, and no voxels are protected. Called by one
+   * thread at a time. Default: none, the field is needed everywhere. */
+  void
+  SetNeeded(NeededType isNeeded);
+
+  /** The inside voxels in no 2 x 2 x 2 block of inside voxels, and the inside and outside voxels that were protected in
+   * the last update, by their offsets in the buffer, ascending. */
   const std::vector<SizeValueType> &
   GetThinVoxels() const
   {
@@ -109,6 +122,11 @@ public:
   GetProtectedVoxels() const
   {
     return m_ProtectedVoxels;
+  }
+  const std::vector<SizeValueType> &
+  GetProtectedOutsideVoxels() const
+  {
+    return m_ProtectedOutsideVoxels;
   }
 
 protected:
@@ -132,6 +150,8 @@ private:
   bool m_ProtectSpecksOnly{ false };
   std::vector<SizeValueType> m_ThinVoxels;
   std::vector<SizeValueType> m_ProtectedVoxels;
+  std::vector<SizeValueType> m_ProtectedOutsideVoxels;
+  NeededType m_IsNeeded;
 };
 
 } // namespace itk

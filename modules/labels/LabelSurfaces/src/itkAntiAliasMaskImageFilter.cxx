@@ -15,6 +15,7 @@
 #include <iterator>
 #include <memory>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 /** \file
@@ -529,7 +530,8 @@ FindNarrow(const MaskWork & work,
   return isAny;
 }
 
-/** Replaces the field around the narrow voxels of a band by that for a smaller Gaussian. */
+/** Replaces the field around the narrow voxels of a band by that for a smaller Gaussian. Beyond the band the mask lacks
+ * nothing, as it is wider than the Gaussian. */
 void
 Refine(const MaskWork & work, const Scale & scale, const VoxelBand & band, const VoxelSet & isNarrow)
 {
@@ -545,11 +547,11 @@ Refine(const MaskWork & work, const Scale & scale, const VoxelBand & band, const
   const SizeValueType blended = GaussianWeights(blendingSigma).size() / 2;
   const SizeValueType reach = blended + GaussianWeights(work.widening * scale.sigma).size(); // of two corrections
   const std::unique_ptr<float[]> fine(new float[isNarrow.size()]);
-  MatchLocalVolumes(work, scale, narrow.Widened({ reach, reach, reach }), fine.get());
+  MatchLocalVolumes(work, scale, narrow.Widened({ reach, reach, reach }).Common(band), fine.get());
   Smooth(
     work,
     blendingSigma,
-    narrow.Widened({ blended, blended, blended }),
+    narrow.Widened({ blended, blended, blended }).Common(band),
     [&](SizeValueType row, float * values) {
       std::copy_n(isNarrow.data() + row * width, width, values);
       return narrow.HasRow(row);
@@ -755,14 +757,14 @@ PutTubes(const MaskWork & work, const VoxelBand & band, const VoxelSet & isProte
   });
 }
 
-/** The inside voxels of a band that pass a test, ascending. */
+/** The voxels of one class in a band that pass a test, ascending. */
 template <typename TTest>
 std::vector<SizeValueType>
-ListInside(const MaskWork & work, const VoxelBand & band, const TTest & test)
+ListClass(const MaskWork & work, const VoxelBand & band, bool isInside, const TTest & test)
 {
   std::vector<SizeValueType> voxels;
   work.ForEachVoxelInOrder(band, [&](SizeValueType voxel) {
-    if (test(voxel) && work.IsInside(voxel))
+    if (test(voxel) && work.IsInside(voxel) == isInside)
     {
       voxels.push_back(voxel);
     }
@@ -781,6 +783,8 @@ AntiAliasMaskImageFilter::PrintSelf(std::ostream & os, Indent indent) const
      << std::endl;
   os << indent << "ThinVoxels: " << m_ThinVoxels.size() << std::endl;
   os << indent << "ProtectedVoxels: " << m_ProtectedVoxels.size() << std::endl;
+  os << indent << "ProtectedOutsideVoxels: " << m_ProtectedOutsideVoxels.size() << std::endl;
+  os << indent << "Needed: " << (m_IsNeeded ? "where a function tells" : "everywhere") << std::endl;
 }
 
 void
@@ -795,6 +799,19 @@ AntiAliasMaskImageFilter::SetSamplePeriod(const PeriodType & period)
     m_SamplePeriod = period;
     this->Modified();
   }
+}
+
+double
+AntiAliasMaskImageFilter::FindWidening(const PeriodType & period)
+{
+  return std::max(1.0, WideningByPeriod * static_cast<double>(*std::max_element(period.begin(), period.end())));
+}
+
+void
+AntiAliasMaskImageFilter::SetNeeded(NeededType isNeeded)
+{
+  m_IsNeeded = std::move(isNeeded);
+  this->Modified();
 }
 
 void
@@ -826,11 +843,17 @@ AntiAliasMaskImageFilter::GenerateData()
                        this->GetInput()->GetBufferPointer(),
                        this->GetOutput()->GetBufferPointer(),
                        scratch.get(),
-                       std::max(1.0, WideningByPeriod * static_cast<double>(longestPeriod)) };
+                       FindWidening(m_SamplePeriod) };
 
   const VoxelBand border = FindBorder(work);
   const auto reach = static_cast<SizeValueType>(std::ceil(BandWidth * work.widening * Wide.sigma));
-  const VoxelBand band = border.Widened({ reach, reach, reach });
+  VoxelBand band = border.Widened({ reach, reach, reach });
+  if (m_IsNeeded)
+  {
+    band = band.SelectedTiles([&](SizeValueType row, SizeValueType begin, SizeValueType end) {
+      return m_IsNeeded(work.IndexOf(row * size[0] + begin), end - begin);
+    });
+  }
   const auto far = static_cast<float>(0.5 * InverseSlope(work.widening * Wide.sigma));
   work.ForEachRow([&](SizeValueType row) {
     for (SizeValueType voxel = row * size[0]; voxel < (row + 1) * size[0]; ++voxel)
@@ -846,16 +869,20 @@ AntiAliasMaskImageFilter::GenerateData()
   {
     Refine(work, Medium, band, isNarrow);
   }
-  FindForms(work, border.Widened({ 2, 2, 2 }), forms);
-  m_ThinVoxels = ListInside(work, band, [&](SizeValueType voxel) { return forms[voxel] != VoxelForm::Thick; });
+  const VoxelBand formed = border.Widened({ 2, 2, 2 });
+  FindForms(work, formed, forms);
+  m_ThinVoxels = ListClass(work, formed, true, [&](SizeValueType voxel) { return forms[voxel] != VoxelForm::Thick; });
   m_ProtectedVoxels.clear();
+  m_ProtectedOutsideVoxels.clear();
   if (FindNarrow(work, forms, band, VeryNarrow, isNarrow))
   {
     Refine(work, Fine, band, isNarrow);
     KeepProtected(work, forms, band, isNarrow);
     PutTubes(work, band, isNarrow, false);
     PutTubes(work, band, isNarrow, true);
-    m_ProtectedVoxels = ListInside(work, band, [&](SizeValueType voxel) { return isNarrow[voxel] != 0; });
+    const auto isProtected = [&](SizeValueType voxel) { return isNarrow[voxel] != 0; };
+    m_ProtectedVoxels = ListClass(work, band, true, isProtected);
+    m_ProtectedOutsideVoxels = ListClass(work, band, false, isProtected);
   }
   progress.Finish();
 }

@@ -31,8 +31,9 @@ StrongestLabels::StrongestLabels(FCCImage<LabelType> & labels, FCCLabelWeights &
   weights.SetNumberOfRows(size[1] * size[2]);
 }
 
+template <typename TWeight>
 void
-StrongestLabels::Add(const FCCImage<float> & field, LabelType label)
+StrongestLabels::AddWeights(const FCCImage<float> & field, LabelType label, const TWeight & weightOf)
 {
   constexpr float limit = FCCLabelWeights::Limit;
   const auto & sites = field.GetBufferedRegion();
@@ -46,7 +47,7 @@ StrongestLabels::Add(const FCCImage<float> & field, LabelType label)
     const auto firstSite = static_cast<SizeValueType>(m_Labels.ComputeOffset(first));
     for (SizeValueType i = 0; i < sites.GetSize(0); ++i)
     {
-      const float weight = std::clamp(values[i], -limit, limit);
+      const float weight = std::clamp(weightOf(values[i], firstSite + i), -limit, limit);
       if (weight > m_Largest[firstSite + i])
       {
         m_Largest[firstSite + i] = weight;
@@ -58,6 +59,19 @@ StrongestLabels::Add(const FCCImage<float> & field, LabelType label)
       }
     }
   });
+}
+
+void
+StrongestLabels::Add(const FCCImage<float> & field, LabelType label)
+{
+  this->AddWeights(field, label, [](float value, SizeValueType) { return value; });
+}
+
+void
+StrongestLabels::AddZero(const FCCImage<float> & field, const std::vector<std::uint8_t> & hasOneNeighbor)
+{
+  this->AddWeights(
+    field, 0, [&](float value, SizeValueType site) { return hasOneNeighbor[site] != 0 ? -m_Largest[site] : value; });
 }
 
 void

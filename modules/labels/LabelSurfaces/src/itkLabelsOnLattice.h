@@ -7,6 +7,7 @@
 #include "rhombicForEachBlock.h"
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -50,11 +51,22 @@ public:
   void
   Add(const FCCImage<float> & field, LabelType label);
 
+  /** Adds the weights of label 0 in a box of the lattice, after those of all other labels: the values of \a field,
+   * and where label 0 has one neighbour the negative weight of the label that is strongest so far.
+   * \param hasOneNeighbor for each site of the lattice, 1 or 0 */
+  void
+  AddZero(const FCCImage<float> & field, const std::vector<std::uint8_t> & hasOneNeighbor);
+
   /** Sorts the weights, as FCCLabelWeights::Find() needs it. */
   void
   SortWeights();
 
 private:
+  /** Adds a label's weight(value, site) at each site of a box. */
+  template <typename TWeight>
+  void
+  AddWeights(const FCCImage<float> & field, LabelType label, const TWeight & weightOf);
+
   FCCImage<LabelType> & m_Labels;
   FCCLabelWeights & m_Weights;
   std::vector<float> m_Largest; ///< weight so far, of each site

@@ -6,6 +6,7 @@
 #include "itkCartesianToFCCImageFilter.h"
 #include "itkInputSamples.h"
 #include "itkKeepLabelVolumes.h"
+#include "itkLabelBlocks.h"
 #include "itkLabelTopology.h"
 #include "itkLabelsOnLattice.h"
 #include "itkMath.h"
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -38,6 +40,7 @@ using FieldLattice = FCCImage<float>;
 
 constexpr IndexValueType Margin = 2;      // voxels around the map
 constexpr IndexValueType LabelMargin = 4; // voxels around a label in which it has weights
+constexpr double LabelReach = 6.25;       // voxels within which labels have an effect on fields, times the widening
 
 /** The map refined to nearly cubic voxels. A sample has an index that is a multiple of the period along each axis. */
 class RefinedMap
@@ -292,17 +295,52 @@ MakeMask(const RefinedMap & map, LabelType label, const ImageRegion<3> & box)
   return mask;
 }
 
-/** Makes a label's field, in the box of its mask, and finds the mask's thin voxels: the result is the filter that has
- * them. No label but 0 reaches beyond the map. */
+/** The blocks of the map's voxels at junctions, where the field of label 0 is made. */
+LabelBlocks
+FindJunctions(const LabelImage & labels, const RefinedMap & map)
+{
+  return { labels, map.GetPeriod(), LabelReach * AntiAliasMaskImageFilter::FindWidening(map.GetPeriod()) };
+}
+
+/** Whether one of \a length refined voxels of a row is at a junction or within reach of one. */
+bool
+AreNearJunction(const RefinedMap & map, const LabelBlocks & junctions, const Index<3> & first, SizeValueType length)
+{
+  const auto blockOf = [&](unsigned int axis, IndexValueType index) {
+    return map.GetNearest(axis, index) / junctions.GetEdges()[axis];
+  };
+  const SizeValueType last = blockOf(0, first[0] + static_cast<IndexValueType>(length) - 1);
+  for (SizeValueType x = blockOf(0, first[0]); x <= last; ++x)
+  {
+    if (junctions.IsNearJunction(x, blockOf(1, first[1]), blockOf(2, first[2])))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/** Makes a label's field, in the box of its mask, that of label 0 near junctions only, and finds the mask's thin
+ * voxels: the result is the filter that has them. No label but 0 reaches beyond the map. */
 AntiAliasMaskImageFilter::Pointer
-MakeField(const RefinedMap & map, LabelType label, const ImageRegion<3> & box, ThreadIdType threads)
+MakeField(const RefinedMap & map,
+          const LabelBlocks & junctions,
+          LabelType label,
+          const ImageRegion<3> & box,
+          ThreadIdType threads)
 {
   const auto filter = AntiAliasMaskImageFilter::New();
   filter->SetInput(MakeMask(map, label, box));
   filter->SetNumberOfWorkUnits(threads);
   filter->SetSamplePeriod(map.GetPeriod());
   filter->ProtectSpecksOnlyOn(); // candidates keep the other thin parts whole
+  if (label == 0)
+  {
+    filter->SetNeeded(
+      [&](const Index<3> & first, SizeValueType length) { return AreNearJunction(map, junctions, first, length); });
+  }
   filter->Update();
+  filter->SetNeeded(nullptr);
   std::vector<float> depthsInMap(box.GetSize(0));
   for (SizeValueType n = 0; n < depthsInMap.size(); ++n)
   {
@@ -349,19 +387,50 @@ ResampleField(const CartesianToFCCRows & rows,
   return weights;
 }
 
-/** Finds a label's candidates: the sites that its thin parts pass. Candidates of protected voxels are locked. */
+/** The sites nearest to some voxels of an image in the refined map. */
+std::vector<FCCLattice::SiteType>
+FindNearestSites(const RefinedMap & map,
+                 const MaskImage & mask,
+                 const std::vector<SizeValueType> & voxels,
+                 const Lattice & labels)
+{
+  std::vector<FCCLattice::SiteType> sites;
+  std::transform(voxels.begin(), voxels.end(), std::back_inserter(sites), [&](SizeValueType voxel) {
+    const Index<3> index = mask.ComputeIndex(static_cast<OffsetValueType>(voxel));
+    return FCCLattice::NearestSite(labels.TransformPhysicalPointToLattice(map.GetPosition(index)));
+  });
+  return sites;
+}
+
+/** The sites nearest to the voxels of label 0 that the field of another label protects. */
+std::vector<FCCLattice::SiteType>
+FindLockedOfZero(const RefinedMap & map, const AntiAliasMaskImageFilter & field, const Lattice & labels)
+{
+  const MaskImage & mask = *field.GetInput();
+  std::vector<SizeValueType> voxels = field.GetProtectedOutsideVoxels();
+  const auto isOfOther = [&](SizeValueType voxel) {
+    const Index<3> index = mask.ComputeIndex(static_cast<OffsetValueType>(voxel));
+    return map.GetNearestRow(index)[map.GetNearest(0, index[0])] != 0;
+  };
+  voxels.erase(std::remove_if(voxels.begin(), voxels.end(), isOfOther), voxels.end());
+  return FindNearestSites(map, mask, voxels, labels);
+}
+
+/** Finds a label's candidates: the sites that its thin parts pass. Candidates of protected voxels are locked, and those
+ * at some other sites. */
 std::vector<LabelTopology::Candidate>
-FindCandidates(const RefinedMap & map, const AntiAliasMaskImageFilter & field, LabelType label, const Lattice & labels)
+FindCandidates(const RefinedMap & map,
+               const AntiAliasMaskImageFilter & field,
+               LabelType label,
+               const Lattice & labels,
+               std::vector<FCCLattice::SiteType> locked)
 {
   const MaskImage & mask = *field.GetInput();
   const auto place = [&](const Index<3> & voxel) {
     return labels.TransformPhysicalPointToLattice(map.GetPosition(voxel));
   };
-  std::vector<FCCLattice::SiteType> locked;
-  for (const SizeValueType voxel : field.GetProtectedVoxels())
-  {
-    locked.push_back(FCCLattice::NearestSite(place(mask.ComputeIndex(static_cast<OffsetValueType>(voxel)))));
-  }
+  const auto protectedSites = FindNearestSites(map, mask, field.GetProtectedVoxels(), labels);
+  locked.insert(locked.end(), protectedSites.begin(), protectedSites.end());
   std::sort(locked.begin(), locked.end());
   std::vector<LabelTopology::Candidate> candidates;
   for (const FCCLattice::SiteType & site : FindThinPartSites(mask, map.GetMapRegion(), field.GetThinVoxels(), place))
@@ -385,7 +454,68 @@ struct LabelInBox
   ImageRegion<3> voxels; ///< of the refined map, on which the weights at the sites depend
   FieldLattice::Pointer weights;
   std::vector<LabelTopology::Candidate> candidates;
+  std::vector<FCCLattice::SiteType> lockedOfZero; ///< sites of voxels of label 0 that this label's field protects
 };
+
+/** For each site of the lattice, 1 where the border of label 0 has one neighbour and 0 elsewhere. */
+std::vector<std::uint8_t>
+FindSitesOfOneNeighbor(const RefinedMap & map, const LabelBlocks & junctions, const FieldLattice & lattice)
+{
+  const ImageRegion<3> & whole = lattice.GetLargestPossibleRegion();
+  std::vector<std::uint8_t> hasOneNeighbor(whole.GetNumberOfPixels());
+  const auto offsetOf = [&whole](const Index<3> & site) {
+    const Offset<3> from = site - whole.GetIndex();
+    return (static_cast<SizeValueType>(from[2]) * whole.GetSize(1) + static_cast<SizeValueType>(from[1])) *
+             whole.GetSize(0) +
+           static_cast<SizeValueType>(from[0]);
+  };
+  const LabelBlocks::SizeType & size = junctions.GetSize();
+  const auto mark = [&](SizeValueType begin, SizeValueType end, SizeValueType y, SizeValueType z) {
+    ImageRegion<3> voxels;
+    const std::array<std::array<SizeValueType, 2>, 3> blocks{ { { begin, end }, { y, y + 1 }, { z, z + 1 } } };
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      // Blocks at the border hold what is beyond the map.
+      const auto edge = static_cast<IndexValueType>(junctions.GetEdges()[axis] * map.GetPeriod()[axis]);
+      const auto half = static_cast<IndexValueType>(map.GetPeriod()[axis] / 2);
+      const ImageRegion<3> & grid = map.GetGrid().GetLargestPossibleRegion();
+      const IndexValueType first =
+        blocks[axis][0] == 0 ? grid.GetIndex(axis) : static_cast<IndexValueType>(blocks[axis][0]) * edge - half;
+      const IndexValueType last = blocks[axis][1] == size[axis]
+                                    ? grid.GetUpperIndex()[axis]
+                                    : static_cast<IndexValueType>(blocks[axis][1]) * edge - half - 1;
+      voxels.SetIndex(axis, first);
+      voxels.SetSize(axis, static_cast<SizeValueType>(last - first + 1));
+    }
+    const ImageRegion<3> sites = FindSites(map, lattice, voxels);
+    for (SizeValueType row = 0; row < sites.GetSize(1) * sites.GetSize(2); ++row)
+    {
+      Index<3> first = sites.GetIndex();
+      first[1] += static_cast<IndexValueType>(row % sites.GetSize(1));
+      first[2] += static_cast<IndexValueType>(row / sites.GetSize(1));
+      std::fill_n(
+        hasOneNeighbor.begin() + static_cast<std::ptrdiff_t>(offsetOf(first)), sites.GetSize(0), std::uint8_t{ 1 });
+    }
+  };
+  for (SizeValueType row = 0; row < size[1] * size[2]; ++row)
+  {
+    const SizeValueType y = row % size[1];
+    const SizeValueType z = row / size[1];
+    for (SizeValueType begin = 0, end = 0; begin < size[0]; begin = end + 1)
+    {
+      end = begin;
+      while (end < size[0] && junctions.HasOneNeighbor(end, y, z))
+      {
+        ++end;
+      }
+      if (end > begin)
+      {
+        mark(begin, end, y, z);
+      }
+    }
+  }
+  return hasOneNeighbor;
+}
 
 /** Computes the volumes of the voxels of each label in mm^3. */
 std::vector<double>
@@ -478,7 +608,7 @@ LabelsToFCCFilter::GenerateData()
   for (const auto & [label, box] : FindBoxes(image, map))
   {
     const ImageRegion<3> sites = FindSites(map, *lattice, box);
-    boxes.push_back({ label, sites, rows.FindNeededSamples(sites), nullptr, {} });
+    boxes.push_back({ label, sites, rows.FindNeededSamples(sites), nullptr, {}, {} });
   }
   WorkProgress progress(*this, boxes.size() + 1);
 
@@ -489,8 +619,19 @@ LabelsToFCCFilter::GenerateData()
   labels->Allocate();
   const auto weights = FCCLabelWeights::New();
   StrongestLabels strongest(*labels, *weights);
+  const LabelBlocks junctions = FindJunctions(image, map);
+  const auto make = [&](LabelInBox & box, ThreadIdType threads, const std::vector<FCCLattice::SiteType> & locked) {
+    progress.CheckAbort();
+    const auto field = MakeField(map, junctions, box.label, box.voxels, threads);
+    box.candidates = FindCandidates(map, *field, box.label, *labels, locked);
+    box.lockedOfZero = FindLockedOfZero(map, *field, *labels);
+    box.weights = ResampleField(rows, *field->GetOutput(), *lattice, box.sites);
+    progress.Completed(1);
+  };
   std::vector<LabelTopology::Candidate> candidates;
-  for (auto begin = boxes.begin(), end = begin; begin != boxes.end();)
+  std::vector<FCCLattice::SiteType> lockedOfZero;
+  const auto addTo = [](auto & all, const auto & some) { all.insert(all.end(), some.begin(), some.end()); };
+  for (auto begin = boxes.begin() + (boxes.empty() ? 0 : 1), end = begin; begin != boxes.end();)
   {
     // Labels are made side by side while their boxes have together no more voxels than the box of label 0, the first.
     SizeValueType voxels = begin->voxels.GetNumberOfPixels();
@@ -499,20 +640,22 @@ LabelsToFCCFilter::GenerateData()
       return voxels > boxes.front().voxels.GetNumberOfPixels();
     });
     const ThreadIdType threads = end - begin > 1 ? 1 : this->GetNumberOfWorkUnits();
-    rhombic::ForEachOnThreads(static_cast<std::size_t>(end - begin), [&](std::size_t n) {
-      progress.CheckAbort();
-      LabelInBox & box = begin[static_cast<std::ptrdiff_t>(n)];
-      const auto field = MakeField(map, box.label, box.voxels, threads);
-      box.candidates = FindCandidates(map, *field, box.label, *labels);
-      box.weights = ResampleField(rows, *field->GetOutput(), *lattice, box.sites);
-      progress.Completed(1);
-    });
+    rhombic::ForEachOnThreads(static_cast<std::size_t>(end - begin),
+                              [&](std::size_t n) { make(begin[static_cast<std::ptrdiff_t>(n)], threads, {}); });
     for (; begin != end; ++begin)
     {
       strongest.Add(*begin->weights, begin->label);
       begin->weights = nullptr;
-      candidates.insert(candidates.end(), begin->candidates.begin(), begin->candidates.end());
+      addTo(candidates, begin->candidates);
+      addTo(lockedOfZero, begin->lockedOfZero);
     }
+  }
+  if (!boxes.empty()) // label 0, whose weights are mostly those of others
+  {
+    make(boxes.front(), this->GetNumberOfWorkUnits(), lockedOfZero);
+    strongest.AddZero(*boxes.front().weights, FindSitesOfOneNeighbor(map, junctions, *lattice));
+    boxes.front().weights = nullptr;
+    addTo(candidates, boxes.front().candidates);
   }
   strongest.SortWeights();
   LabelTopology topology(*labels, *weights, m_Groups);

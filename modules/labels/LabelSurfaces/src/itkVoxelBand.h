@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace itk
@@ -92,6 +93,36 @@ public:
     for (SizeValueType row = 0; row < m_Rows.size(); ++row)
     {
       selected.m_Rows[row] = test(row) ? m_Rows[row] : 0;
+    }
+    return selected;
+  }
+
+  /** The voxels of this band and of another one of the same size. */
+  VoxelBand
+  Common(const VoxelBand & other) const
+  {
+    VoxelBand common(*this);
+    std::transform(m_Rows.begin(), m_Rows.end(), other.m_Rows.begin(), common.m_Rows.begin(), std::bit_and<>());
+    return common;
+  }
+
+  /** The voxels of this band in the tiles that pass a test(row, begin, end). */
+  template <typename TTest>
+  VoxelBand
+  SelectedTiles(const TTest & test) const
+  {
+    VoxelBand selected(m_Size);
+    for (SizeValueType row = 0; row < m_Rows.size(); ++row)
+    {
+      this->ForEachRun(row, [&](SizeValueType begin, SizeValueType end) {
+        for (SizeValueType x = begin; x < end; x += m_TileLength)
+        {
+          if (test(row, x, std::min(x + m_TileLength, end)))
+          {
+            selected.Mark(row, x);
+          }
+        }
+      });
     }
     return selected;
   }
