@@ -25,9 +25,9 @@ TakeLabels(LabelMap map, ComparedSide & side)
   for (const LabelSummary & summary : map.labels)
   {
     const Label & label = summary.label;
+    const auto bytes = FindAnatomicalColour(label.name).value_or(label.colour);
     Colour colour{};
-    std::transform(
-      label.colour.begin(), label.colour.end(), colour.begin(), [](std::uint8_t channel) { return channel / 255.0; });
+    std::transform(bytes.begin(), bytes.end(), colour.begin(), [](std::uint8_t channel) { return channel / 255.0; });
     side.labels.push_back({ label.name, label.value, label.name != "label " + std::to_string(label.value), colour });
   }
   side.moments = ComputeLabelMoments(map.scan);
