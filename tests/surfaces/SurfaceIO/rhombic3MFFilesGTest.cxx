@@ -165,6 +165,37 @@ TEST_F(ThreeMFFiles, ObjectsStandWhereTheyAreBuilt)
   }
 }
 
+/** The names of the core may have a prefix; elements of other namespaces are not those of the core. */
+TEST_F(ThreeMFFiles, NamespacesMayHavePrefixes)
+{
+  const std::string core = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02";
+  const auto modelOf = [this](const std::string & model) {
+    WriteBytes(m_Path, StoredZip({ { "_rels/.rels", relationships }, { "3D/Any.model", model } }));
+    return ReadSurfaces(m_Path);
+  };
+  std::string prefixed = tetrahedron;
+  for (const char * const name : { "mesh", "vertices", "vertex", "triangles", "triangle" })
+  {
+    for (const std::string & before : { "<", "</" })
+    {
+      const std::string tag = before + name;
+      for (std::size_t at = 0; (at = prefixed.find(tag, at)) != prefixed.npos; at += tag.size())
+      {
+        const char next = prefixed[at + tag.size()];
+        if (next == '>' || next == ' ' || next == '/')
+        {
+          prefixed.insert(at + before.size(), "c:");
+        }
+      }
+    }
+  }
+  const auto read = modelOf("<c:model xmlns:c='" + core + "' xmlns:x='http://a/b' requiredextensions='c'><c:resources>" +
+                            "<x:object id='1'/><c:object id='1'>" + prefixed +
+                            "</c:object></c:resources><c:build><c:item objectid='1'/></c:build></c:model>");
+  ASSERT_EQ(read.size(), 1u);
+  EXPECT_EQ(read[0].surface->GetNumberOfTriangles(), 4u);
+}
+
 TEST_F(ThreeMFFiles, DamagedAndOtherFilesAreRefused)
 {
   using Kind = rhombic::FailureKind;

@@ -21,6 +21,8 @@ namespace
 // relationships name a model.
 constexpr const char * ModelName = "3D/3dmodel.model";
 constexpr const char * ModelRelation = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
+constexpr const char * CoreNamespace = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02";
+constexpr const char * RelationsNamespace = "http://schemas.openxmlformats.org/package/2006/relationships";
 constexpr const char * ContentTypes =
   "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
   "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">"
@@ -134,8 +136,9 @@ AttributeOf(Attributes attributes, std::string_view name)
 }
 
 /** \class XMLPart
- * \brief Parses a part of the archive, element by element, by expat. Parts with a document type are refused, so nothing
- * expands. */
+ * \brief Parses a part of the archive, element by element, by expat. Elements of 3MF's core and of relationships have
+ * their names without a prefix, whatever prefix the part gives to the namespace; others have names that nothing is
+ * called. Parts with a document type are refused, so nothing expands. */
 class XMLPart
 {
 public:
@@ -144,12 +147,14 @@ public:
   void
   Parse(const InputFile & file, const ZipReader & zip, const ZipPart & part)
   {
-    const std::unique_ptr<XML_ParserStruct, void (*)(XML_Parser)> parser(XML_ParserCreate(nullptr), XML_ParserFree);
+    const std::unique_ptr<XML_ParserStruct, void (*)(XML_Parser)> parser(XML_ParserCreateNS(nullptr, Separator),
+                                                                         XML_ParserFree);
     m_Parser = parser.get();
     XML_SetUserData(m_Parser, this);
     XML_SetElementHandler(m_Parser, &XMLPart::OnBegin, &XMLPart::OnEnd);
     XML_SetCharacterDataHandler(m_Parser, &XMLPart::OnText);
     XML_SetStartDoctypeDeclHandler(m_Parser, &XMLPart::OnDocumentType);
+    XML_SetStartNamespaceDeclHandler(m_Parser, &XMLPart::OnNamespace);
     const auto parse = [&](std::string_view bytes, bool isLast) {
       const auto status = XML_Parse(m_Parser, bytes.data(), static_cast<int>(bytes.size()), isLast ? 1 : 0);
       if (m_Failure)
@@ -168,6 +173,14 @@ public:
   }
 
 protected:
+  /** The namespace that a prefix stands for; empty for an unknown prefix. */
+  std::string
+  NamespaceOf(std::string_view prefix) const
+  {
+    const auto found = m_Namespaces.find(prefix);
+    return found != m_Namespaces.end() ? found->second : "";
+  }
+
   virtual void
   BeginElement(std::string_view name, Attributes attributes) = 0;
   virtual void
@@ -199,15 +212,35 @@ private:
     }
   }
 
+  /** An element's name without its namespace, if that is known or there is none; else with it. */
+  static std::string_view
+  OwnName(std::string_view name)
+  {
+    const std::size_t separator = name.rfind(Separator);
+    const std::string_view space = name.substr(0, separator);
+    const bool isOwn = separator == name.npos || space == CoreNamespace || space == RelationsNamespace;
+    return isOwn ? name.substr(separator + 1) : name;
+  }
+
   static void
   OnBegin(void * self, const XML_Char * name, const XML_Char ** attributes)
   {
-    Guarded(self, [&](XMLPart & part) { part.BeginElement(name, attributes); });
+    Guarded(self, [&](XMLPart & part) { part.BeginElement(OwnName(name), attributes); });
   }
   static void
   OnEnd(void * self, const XML_Char * name)
   {
-    Guarded(self, [&](XMLPart & part) { part.EndElement(name); });
+    Guarded(self, [&](XMLPart & part) { part.EndElement(OwnName(name)); });
+  }
+  static void
+  OnNamespace(void * self, const XML_Char * prefix, const XML_Char * name)
+  {
+    Guarded(self, [&](XMLPart & part) {
+      if (part.m_Namespaces.size() < MostNamespaces)
+      {
+        part.m_Namespaces.emplace(prefix != nullptr ? prefix : "", name != nullptr ? name : "");
+      }
+    });
   }
   static void
   OnText(void * self, const XML_Char * text, int size)
@@ -220,7 +253,11 @@ private:
     XML_StopParser(static_cast<XMLPart *>(self)->m_Parser, XML_FALSE);
   }
 
+  static constexpr XML_Char Separator = ' '; // between namespace and name
+  static constexpr std::size_t MostNamespaces = 1000;
+
   XML_Parser m_Parser = nullptr;
+  std::map<std::string, std::string, std::less<>> m_Namespaces; ///< by prefix
   std::exception_ptr m_Failure;
 };
 
@@ -381,10 +418,11 @@ private:
     m_Unit = found->second;
     for (const std::string_view prefix : SplitWords(AttributeOf(attributes, "requiredextensions")))
     {
-      const std::string_view extension = AttributeOf(attributes, "xmlns:" + std::string(prefix));
-      if (extension.find("/material/") == extension.npos) // materials change the look alone
+      const std::string extension = this->NamespaceOf(prefix);
+      if (extension != CoreNamespace &&
+          extension.find("/material/") == extension.npos) // materials change the look alone
       {
-        m_File.Refuse("it requires the extension " + std::string(extension.empty() ? prefix : extension) +
+        m_File.Refuse("it requires the extension " + (extension.empty() ? std::string(prefix) : extension) +
                       ", which is not supported; export it without");
       }
     }
@@ -566,13 +604,13 @@ Write3MF(const std::vector<SceneSurface> & surfaces, SurfaceFileSpace space, Out
   zip.Begin("[Content_Types].xml");
   zip.Append(ContentTypes);
   zip.Begin("_rels/.rels");
-  zip.Append(std::string("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Relationships "
-                         "xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\"><Relationship "
-                         "Target=\"/") +
-             ModelName + "\" Id=\"rel0\" Type=\"" + ModelRelation + "\"/></Relationships>\n");
+  zip.Append(std::string("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Relationships xmlns=\"") + RelationsNamespace +
+             "\"><Relationship Target=\"/" + ModelName + "\" Id=\"rel0\" Type=\"" + ModelRelation +
+             "\"/></Relationships>\n");
   zip.Begin(ModelName);
-  zip.Append("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" xml:lang=\"en-US\" "
-             "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n"
+  zip.Append("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" xml:lang=\"en-US\" xmlns=\"" +
+             std::string(CoreNamespace) +
+             "\">\n"
              "<metadata name=\"Application\">Rhombic</metadata>\n<metadata name=\"Description\">SPACE=" +
              std::string(NameOf(space)) + " UNIT=mm</metadata>\n<resources>\n<basematerials id=\"1\">\n");
   for (const SceneSurface & item : surfaces)
