@@ -14,6 +14,7 @@
 #include <map>
 #include <memory>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 namespace rhombic
@@ -43,18 +44,31 @@ void
 ParseOptions(std::vector<BatchCase> & cases, const Pipeline & pipeline)
 {
   const CommandSyntax syntax = GetCommandSyntax();
-  std::map<std::pair<bool, std::vector<std::string>>, std::map<std::string, Report>> known; // by labels and options
+  using Given = std::tuple<bool, bool, std::vector<std::string>>; // labels, a reference, and which options
+  std::map<Given, std::map<std::string, Report>> known;
   for (BatchCase & batchCase : cases)
   {
-    const auto [place, isNew] =
-      known.emplace(std::pair(!batchCase.labels.empty(), batchCase.options), batchCase.settings);
+    const auto isMade = [&batchCase](const PipelineStep & step) { return IsMadeOf(step, batchCase); };
+    if (std::none_of(pipeline.steps.begin(), pipeline.steps.end(), isMade))
+    {
+      throw Failure(FailureKind::Usage,
+                    "The case " + batchCase.name +
+                      " has no reference, and all outputs are agreements with it; name it in the column reference of "
+                      "the manifest, or leave out the case.");
+    }
+    const auto [place, isNew] = known.emplace(
+      Given(!batchCase.labels.empty(), !batchCase.reference.empty(), batchCase.options), batchCase.settings);
     for (std::size_t n = 0; n < pipeline.steps.size() && isNew; ++n)
     {
       const PipelineStep & step = pipeline.steps[n];
+      if (!isMade(step))
+      {
+        continue;
+      }
       try
       {
         Report & settings = place->second[step.command];
-        settings = syntax.parse(step.command, batchCase.options);
+        settings = IsAgreement(step) ? Report::object() : syntax.parse(step.command, batchCase.options);
         syntax.check(step.command, GetSettings(step, batchCase, settings, ""));
       }
       catch (const Failure & failure)
@@ -103,6 +117,7 @@ GetSettings(const BatchOptions & options, const Events & events)
   {
     events.Note(note);
   }
+  AddAgreement(collection.cases, settings.pipeline);
   ParseOptions(collection.cases, settings.pipeline);
   settings.cases = std::move(collection.cases);
   for (BatchCase & batchCase : settings.cases)
@@ -134,12 +149,13 @@ PrintPlan(const BatchSettings & settings, const Events & events)
   const std::vector<CasePlan> plans = PlanBatch(settings);
   double seconds = 0.0;
   std::uintmax_t memory = 0;
-  std::cout << "case\tscan\tlabels\toptions\tstate\tmegabytes\tseconds\tpeak_MiB\n";
+  std::cout << "case\tscan\tlabels\treference\toptions\tstate\tmegabytes\tseconds\tpeak_MiB\n";
   for (std::size_t n = 0; n < settings.cases.size(); ++n)
   {
     const BatchCase & batchCase = settings.cases[n];
     const CasePlan & plan = plans[n];
-    std::cout << batchCase.name << '\t' << batchCase.scan.string() << '\t' << batchCase.labels.string() << '\t';
+    std::cout << batchCase.name << '\t' << batchCase.scan.string() << '\t' << batchCase.labels.string() << '\t'
+              << batchCase.reference.string() << '\t';
     for (const std::string & option : batchCase.options)
     {
       std::cout << (&option == &batchCase.options.front() ? "" : " ") << option;
@@ -262,7 +278,7 @@ AddBatchCommand(CommandSettings & command)
       &BatchOptions::collection,
       "a folder of scans, in which every series and volume is a case; a BIDS dataset; or a manifest (.tsv) with "
       "columns "
-      "case, scan, labels, options" },
+      "case, scan, labels, reference, options" },
     { "-o,--output", &BatchOptions::output, "the folder of all outputs: new, empty, or to go on with" },
   };
   static const SettingsTable<BatchOptions> choice{

@@ -74,6 +74,10 @@ DescribeMeasures();
 std::string
 ToField(const Report & value);
 
+/** A field of a comma-separated table: as ToField(), texts in quotes. */
+std::string
+ToCSVField(const Report & value);
+
 /** Throws Failure(Usage) for an extension other than .csv and .json. */
 void
 CheckMeasureTablePath(const std::filesystem::path & path);

@@ -25,8 +25,8 @@ struct Provenance
 struct MadeFile
 {
   std::filesystem::path path;
-  std::string kind;                  ///< page, picture, mesh, volume, report, table, dicom or thumbnail
-  Report measures = Report::array(); ///< of each surface that the file holds or shows (see rhombicMeasureTable.h)
+  std::string kind;                  ///< page, picture, mesh, volume, agreement, report, table, dicom or thumbnail
+  Report measures = Report::array(); ///< of each surface of the file (rhombicMeasureTable.h), or each compared label
   bool isMain = true;                ///< whether a user looks for the file; others, as reports, lie beside those
 };
 

@@ -287,16 +287,7 @@ ToCSV(const std::vector<MeshedSurface> & surfaces)
   {
     for (const MeasureColumn & column : Columns)
     {
-      const Report value = column.find(surface);
-      text << (&column == Columns ? "" : ",");
-      if (value.is_string())
-      {
-        text << std::quoted(value.get<std::string>(), '"', '"');
-      }
-      else
-      {
-        text << ToField(value);
-      }
+      text << (&column == Columns ? "" : ",") << ToCSVField(column.find(surface));
     }
     text << "\r\n";
   }
@@ -396,6 +387,14 @@ ToField(const Report & value)
   std::replace_if(
     text.begin(), text.end(), [](unsigned char letter) { return letter < ' '; }, ' ');
   return text;
+}
+
+std::string
+ToCSVField(const Report & value)
+{
+  std::ostringstream text;
+  text << std::quoted(ToField(value), '"', '"');
+  return value.is_string() ? text.str() : ToField(value);
 }
 
 void

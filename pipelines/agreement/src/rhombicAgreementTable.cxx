@@ -208,15 +208,7 @@ WriteAgreement(const Report & rows, const std::string & extension)
     for (const Column & column : Columns)
     {
       const Report & value = row[column.name];
-      text << (&column == Columns ? "" : between);
-      if (isCSV && value.is_string())
-      {
-        text << std::quoted(ToField(value), '"', '"');
-      }
-      else
-      {
-        text << ToField(value);
-      }
+      text << (&column == Columns ? "" : between) << (isCSV ? ToCSVField(value) : ToField(value));
     }
     text << end;
   }

@@ -576,11 +576,13 @@ CompareLabels(const CompareLabelsSettings & settings, const Events & events, std
   if (!settings.table.empty())
   {
     OutputFiles files{ settings.provenance };
-    const Report rows = ReportAgreement(agreements);
+    Report rows = ReportAgreement(agreements);
     StageText(WriteAgreement(rows, settings.table.extension().string()), settings.table, files.staged);
-    AddOutput(settings.table, "table", { { "agreement", rows } }, files);
+    AddOutput(settings.table, "agreement", { { "agreement", rows } }, files);
     files.staged.Commit();
     made = files.made;
+    rows.erase(rows.size() - 1); // the means
+    made.front().measures = rows;
   }
   return agreements;
 }

@@ -22,6 +22,9 @@ struct BatchCase
   std::vector<std::string> options;         ///< of each of its commands, as "--series=1b2c"
   std::map<std::string, Report> settings;   ///< that the options set, by the command's name
   std::vector<std::filesystem::path> files; ///< all that is read, sorted
+  /** The label map or folder of masks that its labels, or its scan without labels, should agree with; absolute; empty
+   * for none. */
+  std::filesystem::path reference;
 
   /** The size of all files in bytes. */
   std::uintmax_t
@@ -51,7 +54,8 @@ bool
 IsBIDS(const std::filesystem::path & folder);
 
 /** The cases of
- * - a manifest (.tsv): columns case, scan, and perhaps labels and options, with paths relative to the manifest;
+ * - a manifest (.tsv): columns case, scan, and perhaps labels, reference and options, with paths relative to the
+ *   manifest;
  * - a BIDS dataset (see IsBIDS()): each volume in a folder anat, with its label map (..._dseg) from there or from the
  *   derivatives, if a label map is there;
  * - any other folder: each DICOM series and each volume file in it and in its subfolders, but for hidden ones,

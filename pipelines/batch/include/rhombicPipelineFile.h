@@ -16,7 +16,7 @@ namespace rhombic
 struct PipelineStep
 {
   std::string output;             ///< name of the file
-  std::string kind;               ///< page, picture, mesh or volume
+  std::string kind;               ///< page, picture, mesh, volume or agreement
   std::string command;            ///< of `rhombic`
   Report settings;                ///< of the command, by their names, without scan, labels and output
   std::vector<std::string> files; ///< names of those settings that are files to write, but for the output
@@ -55,15 +55,28 @@ struct CommandSyntax
 /** Reads a pipeline file, or an empty path for the default: a page, page.png, with "preset: auto".
  *
  * The file is YAML: a list "outputs", and "options" for those of them whose command has the option. Each output is
- * "page", "picture", "mesh" or "volume" with a file's name, and options of the commands render, render, mesh and
- * resample by their long names. "true" gives an option that has no value, "false" leaves it out, a list repeats it. One
- * key is not that of the commands: "labels: false" for an output without the case's labels.
+ * "page", "picture", "mesh", "volume" or "agreement" with a file's name, and options of the commands render, render,
+ * mesh, resample and compare-labels by their long names. "true" gives an option that has no value, "false" leaves it
+ * out, a list repeats it. One key is not that of the commands: "labels: false" for an output without the case's labels.
  *
  * Throws Failure: NotFound, or Usage, naming the line of the mistake. */
 Pipeline
 ReadPipeline(const std::filesystem::path & path, const CommandSyntax & syntax);
 
-/** All settings of the command for a step of a case, whose outputs are written to a folder.
+/** Whether an output is the agreement of a case's labels with its reference. Cases' options are not of its command. */
+bool
+IsAgreement(const PipelineStep & step);
+
+/** Whether an output is made of a case: an agreement only where there is a reference. */
+bool
+IsMadeOf(const PipelineStep & step, const BatchCase & batchCase);
+
+/** Adds the output agreement.tsv if any case has a reference, unless the pipeline has an output of this kind. */
+void
+AddAgreement(const std::vector<BatchCase> & cases, Pipeline & pipeline);
+
+/** All settings of the command for a step of a case, whose outputs are written to a folder. Agreements are those of the
+ * case's reference (A) with its labels, or with its scan without labels (B).
  * \param further settings, as those that CommandSyntax::parse() finds in the case's options. Lists go behind the
  * step's; what may be given once is refused by the command if the step has it. */
 Report

@@ -115,6 +115,28 @@ AddFiles(const fs::path & path, std::vector<fs::path> & files)
   }
 }
 
+/** All files of a case, sorted; none if its scan, labels or reference do not exist. */
+std::vector<fs::path>
+ListFilesOf(const BatchCase & batchCase)
+{
+  std::vector<fs::path> files;
+  for (const fs::path & path : { batchCase.scan, batchCase.labels, batchCase.reference })
+  {
+    if (path.empty())
+    {
+      continue;
+    }
+    if (!fs::exists(path))
+    {
+      return {};
+    }
+    AddFiles(path, files);
+  }
+  std::sort(files.begin(), files.end());
+  files.erase(std::unique(files.begin(), files.end()), files.end());
+  return files;
+}
+
 /** A text whose letters may be in the name of any file. */
 std::string
 ToFileName(std::string text)
@@ -335,9 +357,8 @@ FailInManifest(const fs::path & manifest, std::size_t line, const std::string & 
 std::vector<std::string>
 ParseHead(const fs::path & manifest, const std::string & line)
 {
-  const std::vector<std::string> known{
-    "case", "scan", "labels", "options", "state", "megabytes", "seconds", "peak_MiB"
-  };
+  const std::vector<std::string> known{ "case",  "scan",      "labels",  "reference", "options",
+                                        "state", "megabytes", "seconds", "peak_MiB" };
   std::vector<std::string> columns = Split(line, "\t");
   for (const std::string & column : columns)
   {
@@ -405,7 +426,11 @@ ReadManifest(const fs::path & manifest)
     }
     const fs::path folder = manifest.parent_path();
     batchCase.scan = (folder / row["scan"]).lexically_normal();
-    batchCase.labels = row["labels"].empty() ? fs::path() : (folder / row["labels"]).lexically_normal();
+    const auto pathOf = [&](const char * column) {
+      return row[column].empty() ? fs::path() : (folder / row[column]).lexically_normal();
+    };
+    batchCase.labels = pathOf("labels");
+    batchCase.reference = pathOf("reference");
     for (const std::string_view word : SplitWords(row["options"]))
     {
       batchCase.options.emplace_back(word);
@@ -443,7 +468,8 @@ void
 LeaveOutUnlistable(CaseCollection & found)
 {
   const auto isListable = [](const BatchCase & batchCase) {
-    return (batchCase.scan.string() + batchCase.labels.string()).find_first_of("\t\r\n") == std::string::npos;
+    return (batchCase.scan.string() + batchCase.labels.string() + batchCase.reference.string())
+             .find_first_of("\t\r\n") == std::string::npos;
   };
   const auto end = std::stable_partition(found.cases.begin(), found.cases.end(), isListable);
   for (auto leftOut = end; leftOut != found.cases.end(); ++leftOut)
@@ -533,16 +559,7 @@ FindCases(const fs::path & path, const CaseSearch & given)
   for (BatchCase & batchCase : found.cases)
   {
     batchCase.folder = batchCase.name;
-    if (fs::exists(batchCase.scan) && (batchCase.labels.empty() || fs::exists(batchCase.labels)))
-    {
-      AddFiles(batchCase.scan, batchCase.files);
-      if (!batchCase.labels.empty())
-      {
-        AddFiles(batchCase.labels, batchCase.files);
-      }
-      std::sort(batchCase.files.begin(), batchCase.files.end());
-      batchCase.files.erase(std::unique(batchCase.files.begin(), batchCase.files.end()), batchCase.files.end());
-    }
+    batchCase.files = ListFilesOf(batchCase);
   }
   return found;
 }

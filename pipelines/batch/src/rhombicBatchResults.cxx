@@ -1,5 +1,6 @@
 #include "rhombicBatchResults.h"
 
+#include "rhombicBatchAgreement.h"
 #include "rhombicIndexPage.h"
 #include "rhombicMeasureTable.h"
 #include "rhombicSidecar.h"
@@ -108,7 +109,7 @@ DescribeOutputTable()
   Report columns;
   DescribeColumn("case", "", caseDescription, columns);
   DescribeColumn("file", "", "The file's path below the folder of this table.", columns);
-  DescribeColumn("kind", "", "page, picture, mesh, volume, report, table, dicom or thumbnail.", columns);
+  DescribeColumn("kind", "", "page, picture, mesh, volume, agreement, report, table, dicom or thumbnail.", columns);
   DescribeColumn("output", "", "The name of the output in the pipeline, which may be one for several files.", columns);
   DescribeColumn("size_bytes", "byte", "The file's size.", columns);
   DescribeColumn("md5", "", "The MD5 of the file's content.", columns);
@@ -122,7 +123,7 @@ DescribeOutputTable()
 std::string
 MakeManifest(const std::vector<BatchCase> & cases)
 {
-  std::string table = "case\tscan\tlabels\toptions\n";
+  std::string table = "case\tscan\tlabels\treference\toptions\n";
   for (const BatchCase & batchCase : cases)
   {
     std::string options;
@@ -130,7 +131,8 @@ MakeManifest(const std::vector<BatchCase> & cases)
     {
       options += (options.empty() ? "" : " ") + option;
     }
-    table += ToLine({ batchCase.name, batchCase.scan.string(), batchCase.labels.string(), options });
+    table += ToLine(
+      { batchCase.name, batchCase.scan.string(), batchCase.labels.string(), batchCase.reference.string(), options });
   }
   return table;
 }
@@ -184,7 +186,19 @@ DescribeVolumes(const Report & record)
 }
 
 std::string
-MakeRow(const Report & record)
+DescribeAgreementOf(const Report & record)
+{
+  std::string text;
+  for (const std::string & sentence : SummarizeAgreementOf(record))
+  {
+    text += (text.empty() ? "" : "<br>") + Escape(sentence);
+  }
+  return text;
+}
+
+/** \param hasAgreement whether the page has a column for it */
+std::string
+MakeRow(const Report & record, bool hasAgreement)
 {
   const auto name = record.value("case", std::string());
   const auto folder = record.value("folder", std::string());
@@ -215,21 +229,23 @@ MakeRow(const Report & record)
          (!links.empty() ? "<a href=\"" + LinkTo(folder, CaseFile) + "\">" + Escape(name) + "</a>" : Escape(name)) +
          "</td><td><b class=\"" + word + "\">" + status + "</b><br>" +
          Escape(record.value("cause", std::string()) + notMade) + "</td><td><div>" + DescribeVolumes(record) +
-         "</div></td><td>" + links + "</td><td class=\"number\">" + FormatFixed(record.value("seconds", 0.0), 1) +
-         "</td><td class=\"number\">" + FormatFixed(record.value("peakMemory", 0.0) / (1u << 20), 0) + "</td></tr>\n";
+         "</div></td>" + (hasAgreement ? "<td>" + DescribeAgreementOf(record) + "</td>" : "") + "<td>" + links +
+         "</td><td class=\"number\">" + FormatFixed(record.value("seconds", 0.0), 1) + "</td><td class=\"number\">" +
+         FormatFixed(record.value("peakMemory", 0.0) / (1u << 20), 0) + "</td></tr>\n";
 }
 
-/** The page of WriteResults(): a table of all cases with thumbnails and links, which a script on the page filters. It
- * needs nothing beside the folder. */
+/** The page of WriteResults(): a table of all cases with thumbnails and links, which a script on the page filters.
+ * Cases that agree least with their references come first. It needs nothing beside the folder. */
 std::string
 MakeIndexPage(const std::vector<Report> & cases)
 {
   std::map<std::string, std::size_t> counts;
   std::string rows;
-  for (const Report & record : cases)
+  const bool hasAgreement = HasAgreement(cases);
+  for (const Report & record : WorstFirst(cases))
   {
     ++counts[record.value("status", std::string())];
-    rows += MakeRow(record);
+    rows += MakeRow(record, hasAgreement);
   }
   const auto box = [&counts](const std::string & status, const std::string & name) {
     return "<label><input type=\"checkbox\" name=\"" + name + "\" checked> " + status + " (" +
@@ -238,10 +254,15 @@ MakeIndexPage(const std::vector<Report> & cases)
   const std::string body =
     "<h1>" + Count(cases.size(), "case") + "</h1>\n<p><a href=\"results.tsv\">results.tsv</a> " +
     "<a href=\"results.json\">results.json</a> <a href=\"measures.tsv\">measures.tsv</a> " +
-    "<a href=\"outputs.tsv\">outputs.tsv</a></p>\n<form>" + box("done", "done") + box("failed", "failed") +
-    box("not run", "not") +
+    "<a href=\"outputs.tsv\">outputs.tsv</a>" +
+    (hasAgreement ? " <a href=\"agreement.tsv\">agreement.tsv</a> "
+                    "<a href=\"agreement-statistics.tsv\">agreement-statistics.tsv</a>"
+                  : "") +
+    "</p>\n<form>" + box("done", "done") + box("failed", "failed") + box("not run", "not") +
     "<input type=\"search\" name=\"text\" placeholder=\"words\" aria-label=\"words\"> <output></output></form>\n"
-    "<table>\n<thead><tr><th></th><th>case</th><th>status</th><th>volumes</th><th>outputs</th>"
+    "<table>\n<thead><tr><th></th><th>case</th><th>status</th><th>volumes</th>" +
+    (hasAgreement ? "<th>agreement</th>" : "") +
+    "<th>outputs</th>"
     "<th class=\"number\">seconds</th><th class=\"number\">peak MiB</th></tr></thead>\n<tbody>\n" +
     rows + "</tbody>\n</table>\n";
   const std::string place = "<!-- cases -->\n";
@@ -287,6 +308,12 @@ WriteResults(const std::vector<Report> & cases, const std::vector<BatchCase> * m
   StageText(MakeOutputTable(cases), folder / "outputs.tsv", staged);
   StageText(ToJson(DescribeOutputTable()) + '\n', folder / "outputs.json", staged);
   StageText(MakeIndexPage(cases), folder / "index.html", staged);
+  const bool hasAgreement = HasAgreement(cases);
+  if (hasAgreement)
+  {
+    StageText(MakeAgreementTable(cases), folder / "agreement.tsv", staged);
+    StageText(MakeAgreementStatistics(cases), folder / "agreement-statistics.tsv", staged);
+  }
   const fs::path casesTable = folder / "cases.tsv";
   if (manifest != nullptr)
   {
@@ -296,6 +323,11 @@ WriteResults(const std::vector<Report> & cases, const std::vector<BatchCase> * m
   if (manifest == nullptr)
   {
     fs::remove(casesTable);
+  }
+  if (!hasAgreement)
+  {
+    fs::remove(folder / "agreement.tsv");
+    fs::remove(folder / "agreement-statistics.tsv");
   }
 }
 

@@ -26,7 +26,8 @@ std::string
 ToLine(const std::vector<std::string> & fields);
 
 /** Writes results.tsv, results.json, measures.tsv, outputs.tsv, the descriptions of these two, and index.html from the
- * cases' lines in the journal; and cases.tsv, a manifest of \a manifest for its owner alone, or removes it if that is
+ * cases' lines in the journal; agreement.tsv and agreement-statistics.tsv if cases were compared with references, else
+ * removes these two; and cases.tsv, a manifest of \a manifest for its owner alone, or removes it if that is
  * null. Throws Failure(Output). */
 void
 WriteResults(const std::vector<Report> & cases,

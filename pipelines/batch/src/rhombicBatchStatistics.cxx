@@ -3,6 +3,7 @@
 #include "rhombicBatchResults.h"
 #include "rhombicFailure.h"
 #include "rhombicMeasureTable.h"
+#include "rhombicQuantile.h"
 #include "rhombicSidecar.h"
 #include "rhombicWording.h"
 
@@ -29,17 +30,6 @@ struct CaseValue
   double value;
   std::string name; ///< of the case
 };
-
-/** \param sorted at least one value
- * \param share from 0 to 1 */
-double
-Quantile(const std::vector<double> & sorted, double share)
-{
-  const double place = share * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-}
 
 /** The estimate of the standard deviation that WriteBatchStatistics() describes. */
 double

@@ -70,6 +70,7 @@ WithoutNames(std::string sentence, const BatchCase & batchCase, const fs::path &
   ReplaceAll(sentence, stage.string(), "CASE");
   ReplaceAll(sentence, batchCase.scan.string(), "SCAN");
   ReplaceAll(sentence, batchCase.labels.string(), "LABELS");
+  ReplaceAll(sentence, batchCase.reference.string(), "REFERENCE");
   std::map<std::string, std::string> names;
   for (std::size_t n = 0; n < batchCase.files.size(); ++n)
   {
@@ -175,6 +176,13 @@ CaseRun::CaseRun(const BatchCase & batchCase, const BatchSettings & settings, st
   fs::remove_all(m_Stage);
   fs::remove_all(settings.output / batchCase.folder);
   fs::create_directory(m_Stage);
+  for (const PipelineStep & step : settings.pipeline.steps)
+  {
+    if (IsMadeOf(step, batchCase))
+    {
+      m_Steps.push_back(&step);
+    }
+  }
   this->StartStep();
 }
 
@@ -188,7 +196,7 @@ CaseRun::~CaseRun()
 void
 CaseRun::StartStep()
 {
-  const PipelineStep & step = m_Settings.pipeline.steps[m_Step];
+  const PipelineStep & step = *m_Steps[m_Step];
   const auto options = m_Case.settings.find(step.command);
   Report request{ { "command", step.command }, { "threads", m_Settings.threads }, { "parent", getpid() } };
   Report & settings = request["settings"];
@@ -224,14 +232,14 @@ CaseRun::Continue()
     return false;
   }
   this->TakeStep();
-  if (++m_Step < m_Settings.pipeline.steps.size() && !m_IsTooLong)
+  if (++m_Step < m_Steps.size() && !m_IsTooLong)
   {
     this->StartStep();
     return false;
   }
-  for (; m_Step < m_Settings.pipeline.steps.size(); ++m_Step)
+  for (; m_Step < m_Steps.size(); ++m_Step)
   {
-    m_Record["failedOutputs"].push_back(m_Settings.pipeline.steps[m_Step].output);
+    m_Record["failedOutputs"].push_back(m_Steps[m_Step]->output);
   }
   if (!m_Made.empty())
   {
@@ -247,7 +255,7 @@ CaseRun::Continue()
 void
 CaseRun::TakeStep()
 {
-  const PipelineStep & step = m_Settings.pipeline.steps[m_Step];
+  const PipelineStep & step = *m_Steps[m_Step];
   m_Record["steps"].push_back({ { "output", step.output },
                                 { "seconds", SecondsSince(m_ChildStart) },
                                 { "peakMemory", m_Child->GetPeakMemory() } });
@@ -288,7 +296,7 @@ CaseRun::TakeStep()
 void
 CaseRun::Fail(int code, const std::string & cause)
 {
-  m_Record["failedOutputs"].push_back(m_Settings.pipeline.steps[m_Step].output);
+  m_Record["failedOutputs"].push_back(m_Steps[m_Step]->output);
   if (m_Cause.empty())
   {
     m_Cause = cause;
@@ -318,11 +326,12 @@ CaseRun::KeepOutputs()
     m_Record["cause"] = WithoutNames(m_Cause, m_Case, m_Stage);
     m_Record["outputs"] = Report::array();
     m_Record["failedOutputs"] = Report::array();
-    for (const PipelineStep & step : m_Settings.pipeline.steps)
+    for (const PipelineStep * const step : m_Steps)
     {
-      m_Record["failedOutputs"].push_back(step.output);
+      m_Record["failedOutputs"].push_back(step->output);
     }
     m_Record.erase("measures");
+    m_Record.erase("agreement");
   }
 }
 
@@ -340,13 +349,23 @@ CaseRun::AddOutputs()
                                     { "output", made["output"] },
                                     { "bytes", fs::file_size(file) },
                                     { "md5", HashFiles({ file }) } });
-    if (!made["measures"].empty())
+    if (made["kind"] == "agreement")
+    {
+      for (const Report & label : made["measures"])
+      {
+        Report row{ { "output", made["output"] } };
+        row.update(label);
+        m_Record["agreement"].push_back(row);
+      }
+    }
+    else if (!made["measures"].empty())
     {
       m_Record["outputs"].back()["surfaces"] = AddMeasures(made["measures"], m_Record["measures"]);
     }
   }
   Report sidecar = m_Record;
-  for (const char * const key : { "status", "code", "cause", "seconds", "peakMemory", "steps", "measures" })
+  for (const char * const key :
+       { "status", "code", "cause", "seconds", "peakMemory", "steps", "measures", "agreement" })
   {
     sidecar.erase(key);
   }

@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace rhombic
 {
@@ -86,6 +87,7 @@ private:
   const BatchCase & m_Case;
   const BatchSettings & m_Settings;
   std::filesystem::path m_Stage;
+  std::vector<const PipelineStep *> m_Steps; ///< those of the pipeline that are made of the case
   std::size_t m_Step = 0;
   std::unique_ptr<ChildProcess> m_Child;
   bool m_IsTooLong = false;

@@ -29,10 +29,12 @@ struct OutputKind
   const char * command;
 };
 
+constexpr OutputKind Agreement{ "agreement", "compare-labels" };
 constexpr OutputKind OutputKinds[] = { { "page", "render" },
                                        { "picture", "render" },
                                        { "mesh", "mesh" },
-                                       { "volume", "resample" } };
+                                       { "volume", "resample" },
+                                       Agreement };
 
 std::string
 LineOf(const YAML::Node & node)
@@ -235,6 +237,7 @@ private:
   {
     BatchCase anyCase;
     anyCase.scan = "SCAN";
+    anyCase.reference = "REFERENCE";
     try
     {
       for (const fs::path & file : m_Syntax.check(step.command, GetSettings(step, anyCase, Report::object(), "")))
@@ -316,16 +319,48 @@ ReadPipeline(const fs::path & path, const CommandSyntax & syntax)
   }
 }
 
+bool
+IsAgreement(const PipelineStep & step)
+{
+  return step.kind == Agreement.key;
+}
+
+bool
+IsMadeOf(const PipelineStep & step, const BatchCase & batchCase)
+{
+  return !IsAgreement(step) || !batchCase.reference.empty();
+}
+
+void
+AddAgreement(const std::vector<BatchCase> & cases, Pipeline & pipeline)
+{
+  const auto hasReference = [](const BatchCase & batchCase) { return !batchCase.reference.empty(); };
+  if (std::any_of(cases.begin(), cases.end(), hasReference) &&
+      std::none_of(pipeline.steps.begin(), pipeline.steps.end(), IsAgreement))
+  {
+    PipelineStep & step = pipeline.steps.emplace_back();
+    step.output = "agreement.tsv";
+    step.kind = Agreement.key;
+    step.command = Agreement.command;
+    step.settings = Report::object();
+  }
+}
+
 Report
 GetSettings(const PipelineStep & step, const BatchCase & batchCase, const Report & further, const fs::path & folder)
 {
   Report settings{ { "scan", batchCase.scan.string() } };
+  if (IsAgreement(step))
+  {
+    const fs::path & compared = batchCase.labels.empty() ? batchCase.scan : batchCase.labels;
+    settings = { { "a", batchCase.reference.string() }, { "b", compared.string() } };
+  }
   settings.update(step.settings);
   if (step.takesLabels && !batchCase.labels.empty())
   {
     settings["labels"] = batchCase.labels.string();
   }
-  if (step.command != "resample") // which makes no surfaces
+  if (step.command != "resample" && !IsAgreement(step)) // which make no surfaces
   {
     settings["unnamed-mask"] = true;
   }

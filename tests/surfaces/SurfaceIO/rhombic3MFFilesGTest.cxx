@@ -176,7 +176,7 @@ TEST_F(ThreeMFFiles, NamespacesMayHavePrefixes)
   std::string prefixed = tetrahedron;
   for (const char * const name : { "mesh", "vertices", "vertex", "triangles", "triangle" })
   {
-    for (const std::string & before : { "<", "</" })
+    for (const std::string before : { "<", "</" })
     {
       const std::string tag = before + name;
       for (std::size_t at = 0; (at = prefixed.find(tag, at)) != prefixed.npos; at += tag.size())

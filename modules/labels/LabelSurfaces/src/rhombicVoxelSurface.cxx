@@ -1,5 +1,6 @@
 #include "rhombicVoxelSurface.h"
 
+#include "rhombicSliceOrigins.h"
 #include "rhombicVoxelGrid.h"
 
 #include <algorithm>
@@ -20,14 +21,7 @@ std::vector<PointType>
 FindPlanes(const Scan & map)
 {
   const auto & grid = GeometryOf(map.image);
-  const auto & region = grid.GetLargestPossibleRegion();
-  std::vector<PointType> slices = map.sliceOrigins;
-  for (std::size_t slice = slices.size(); slice < region.GetSize(2); ++slice)
-  {
-    itk::Index<3> index = region.GetIndex();
-    index[2] += static_cast<itk::IndexValueType>(slice);
-    slices.push_back(grid.TransformIndexToPhysicalPoint<double>(index));
-  }
+  const std::vector<PointType> slices = SliceOriginsOf(map);
   const std::size_t count = slices.size();
   const VectorType firstStep = count > 1 ? slices[1] - slices[0] : StepAlong(grid, 2);
   const VectorType lastStep = count > 1 ? slices[count - 1] - slices[count - 2] : firstStep;

@@ -1,6 +1,7 @@
 #include "rhombicLabelOverlap.h"
 
 #include "rhombicForEachBlock.h"
+#include "rhombicSliceOrigins.h"
 #include "rhombicVoxelGrid.h"
 
 #include <algorithm>
@@ -25,15 +26,8 @@ struct Slices
     , size(grid.GetLargestPossibleRegion().GetSize())
     , alongRow(StepAlong(grid, 0))
     , alongColumn(StepAlong(grid, 1))
-    , origins(map.sliceOrigins)
-  {
-    for (std::size_t slice = origins.size(); slice < size[2]; ++slice)
-    {
-      itk::Index<3> index = grid.GetLargestPossibleRegion().GetIndex();
-      index[2] += static_cast<itk::IndexValueType>(slice);
-      origins.push_back(grid.TransformIndexToPhysicalPoint<double>(index));
-    }
-  }
+    , origins(SliceOriginsOf(map))
+  {}
 
   std::size_t
   GetVoxelsOfSlice() const
