@@ -144,7 +144,7 @@ TEST(PipelineFile, MistakesAreNamedWithLineAndNearestKey)
          Mistake{ "outputs:\n  - page: a.png\n    output: b.png\n", "'output' in line 3" },
          Mistake{ "options:\n  sise: 3\noutputs: [{page: a.png}]\n", "'sise' in line 2 (did you mean size?)" },
          Mistake{ "output:\n  - page: a.png\n", "'output' in line 1 (did you mean outputs?)" },
-         Mistake{ "outputs:\n  - pag: a.png\n", "page, picture, mesh or volume in line 2" },
+         Mistake{ "outputs:\n  - pag: a.png\n", "page, picture, mesh, volume or agreement in line 2" },
          Mistake{ "outputs:\n  - page: a.png\n  - mesh: a.png\n",
                   "line 3: it would write a.png, as the output in line 2 does; give" },
          Mistake{

@@ -189,9 +189,10 @@ TEST_F(ThreeMFFiles, NamespacesMayHavePrefixes)
       }
     }
   }
-  const auto read = modelOf("<c:model xmlns:c='" + core + "' xmlns:x='http://a/b' requiredextensions='c'><c:resources>" +
-                            "<x:object id='1'/><c:object id='1'>" + prefixed +
-                            "</c:object></c:resources><c:build><c:item objectid='1'/></c:build></c:model>");
+  const auto read =
+    modelOf("<c:model xmlns:c='" + core + "' xmlns:x='http://a/b' requiredextensions='c'><c:resources>" +
+            "<x:object id='1'/><c:object id='1'>" + prefixed +
+            "</c:object></c:resources><c:build><c:item objectid='1'/></c:build></c:model>");
   ASSERT_EQ(read.size(), 1u);
   EXPECT_EQ(read[0].surface->GetNumberOfTriangles(), 4u);
 }

@@ -17,10 +17,10 @@ struct LegendRow
 {
   std::string name;
   Colour colour{ 0.8, 0.8, 0.8 };
-  std::optional<double> volume;     ///< ml
-  std::optional<double> area;       ///< cm2; on sheets
-  std::optional<double> mean;       ///< mean value of the scan inside the surface; on sheets
-  std::string group;                ///< heading of long legends: "bones", "vessels"; empty: "other"
+  std::optional<double> volume;          ///< ml
+  std::optional<double> area;            ///< cm2; on sheets
+  std::optional<double> mean;            ///< mean value of the scan inside the surface; on sheets
+  std::string group;                     ///< heading of long legends: "bones", "vessels"; empty: "other"
   std::vector<std::string> figures = {}; ///< on sheets with headings of their own, in place of volume, area and mean
 };
 

@@ -61,8 +61,8 @@ public:
   void
   Enlarge(const Box & before, const Box & after);
 
-  /** Finds all boxes anew, after many points have moved: takes about a tenth of the time of a new tree. Queries are fast
-   * as long as triangles that were neighbours still are. */
+  /** Finds all boxes anew, after many points have moved: takes about a tenth of the time of a new tree. Queries are
+   * fast as long as triangles that were neighbours still are. */
   void
   Refit();
 
