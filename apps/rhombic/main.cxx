@@ -70,7 +70,7 @@ RequireThreads()
   std::for_each(threads.begin(), threads.end(), [](std::thread & thread) { thread.join(); });
   if (threads.size() < count)
   {
-    throw Failure(FailureKind::Internal,
+    throw Failure(FailureKind::Memory,
                   "Cannot start " + std::to_string(count) +
                     " threads; close other programs, or give a lower number as --threads.");
   }

@@ -35,7 +35,7 @@ constexpr CommandEntry entries[] = {
 
 constexpr char exitCodes[] = "Exit codes:\n"
                              "  0   done\n"
-                             "  1   a defect in rhombic; please report it\n"
+                             "  1   a defect in rhombic or its installation; please report it\n"
                              "  2   wrong usage: an option, a preset, a file extension\n"
                              "  3   no such file or folder, or no scan in it\n"
                              "  4   the input is damaged or of a kind that is not supported\n"
@@ -43,7 +43,7 @@ constexpr char exitCodes[] = "Exit codes:\n"
                              "  6   there is no surface at this threshold\n"
                              "  7   the output can't be written\n"
                              "  8   a surface is not watertight (audit, --require-watertight)\n"
-                             "  9   not enough memory\n"
+                             "  9   not enough memory, or no more threads, processes or open files\n"
                              "  10  this machine can't draw (see rhombic doctor)\n"
                              "  11  pictures differ by more than the tolerance\n"
                              "  12  some cases of a batch failed";

@@ -1,4 +1,5 @@
 itk_module(AgreementPipelines
   DEPENDS Pipelines SurfaceAgreement
-  PRIVATE_DEPENDS ITKTransform ITKIOTransformBase ITKIOTransformInsightLegacy
+  PRIVATE_DEPENDS ITKConnectedComponents ITKDistanceMap ITKTransform ITKIOTransformBase ITKIOTransformInsightLegacy
+                  VTK::CommonDataModel
   DESCRIPTION "Agreement of two segmentations, label by label, as a table.")

@@ -67,9 +67,14 @@ struct SurfaceColours
  * say all that it needs (FindStandardUptake()), else its own unit, and a note says why.
  *
  * Throws Failure: Geometry for a volume or surface whose box lies apart from the surfaces'; Usage for a volume with
- * unevenly spaced slices or several values a voxel; and those of the files. */
+ * unevenly spaced slices or several values a voxel; and those of the files.
+ *
+ * \param frameOfReference of the surfaces' scan: see DicomExamination; a note warns of a volume of another one */
 SurfaceColours
-ColourSurfaces(const ColourBy & by, std::vector<SceneSurface> & surfaces, const Events & events);
+ColourSurfaces(const ColourBy & by,
+               const std::string & frameOfReference,
+               std::vector<SceneSurface> & surfaces,
+               const Events & events);
 
 /** The same for signed distances to surfaces that are known already.
  * \param others for each surface the one that its distances are measured to, or null

@@ -117,6 +117,14 @@ CheckOutputs(const std::vector<std::filesystem::path> & outputs,
              const SurfaceSelection & selection = {},
              const std::vector<std::filesystem::path> & others = {});
 
+/** Warns if two DICOM volumes have different frames of reference; either may be empty for an unknown one.
+ * \param file of the second */
+void
+NoteFramesOfReference(const std::string & one,
+                      const std::string & other,
+                      const std::filesystem::path & file,
+                      const Events & events);
+
 } // namespace rhombic
 
 #endif

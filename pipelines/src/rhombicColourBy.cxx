@@ -137,14 +137,17 @@ NameVolume(const ColourBy & by, VolumeValues sampled)
 
 /** Measures what surfaces are coloured by. */
 NamedValues
-MeasureValues(const ColourBy & by, const std::vector<SceneSurface> & surfaces, const Events & events)
+MeasureValues(const ColourBy & by,
+              const std::string & frameOfReference,
+              const std::vector<SceneSurface> & surfaces,
+              const Events & events)
 {
   switch (by.kind)
   {
     case ColourBy::Kind::Distance:
       return { MeasureDistances(by, surfaces, events), TitleOfDistances, NameOfDistances };
     case ColourBy::Kind::Volume:
-      return NameVolume(by, SampleVolume(by, surfaces, events));
+      return NameVolume(by, SampleVolume(by, frameOfReference, surfaces, events));
     case ColourBy::Kind::Curvature:
     case ColourBy::Kind::Thickness:
       break;
@@ -406,10 +409,13 @@ InputsOf(const std::optional<ColourBy> & by)
 }
 
 SurfaceColours
-ColourSurfaces(const ColourBy & by, std::vector<SceneSurface> & surfaces, const Events & events)
+ColourSurfaces(const ColourBy & by,
+               const std::string & frameOfReference,
+               std::vector<SceneSurface> & surfaces,
+               const Events & events)
 {
   events.Progress("colouring", 0.0);
-  return Paint(by, MeasureValues(by, surfaces, events), surfaces, events);
+  return Paint(by, MeasureValues(by, frameOfReference, surfaces, events), surfaces, events);
 }
 
 SurfaceColours

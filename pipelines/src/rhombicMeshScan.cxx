@@ -330,12 +330,15 @@ StageInspected(const FileInspection & inspection,
 
 /** Sets the colours of all surfaces; returns their report. */
 Report
-ColourMeshes(const ColourBy & by, std::vector<MeshedSurface> & surfaces, const Events & events)
+ColourMeshes(const ColourBy & by,
+             const std::string & frameOfReference,
+             std::vector<MeshedSurface> & surfaces,
+             const Events & events)
 {
   std::vector<SceneSurface> scene;
   std::transform(
     surfaces.begin(), surfaces.end(), std::back_inserter(scene), [](const auto & surface) { return surface.scene; });
-  const SurfaceColours colours = ColourSurfaces(by, scene, events);
+  const SurfaceColours colours = ColourSurfaces(by, frameOfReference, scene, events);
   for (std::size_t n = 0; n < surfaces.size(); ++n)
   {
     surfaces[n].scene = std::move(scene[n]);
@@ -406,6 +409,8 @@ MeshScan(const MeshScanSettings & settings, const Events & events, std::optional
   Report sourceReport = ReportSource(loaded, settings.source);
   const SurfaceMaking making{ settings.source, settings.surfaces, settings.finish, SurfaceUse::Files, events };
   std::vector<MeshedSurface> surfaces = ExtractSource(making, loaded, StoresNormals(settings.mesh));
+  const std::string frame =
+    loaded.FindScan() != nullptr ? ReadDicomExamination(*loaded.FindScan()).frameOfReference : "";
   loaded.DropVolumes();
   std::vector<std::string> names;
   std::transform(surfaces.begin(), surfaces.end(), std::back_inserter(names), [](const auto & surface) {
@@ -422,7 +427,7 @@ MeshScan(const MeshScanSettings & settings, const Events & events, std::optional
   FinishSurfaces(making, surfaces);
   if (settings.colourBy)
   {
-    sourceReport["colours"] = ColourMeshes(*settings.colourBy, surfaces, events);
+    sourceReport["colours"] = ColourMeshes(*settings.colourBy, frame, surfaces, events);
   }
 
   const FileInspection inspection{ settings, loaded.scan, events };

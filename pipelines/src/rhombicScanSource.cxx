@@ -333,4 +333,18 @@ CheckOutputs(const std::vector<fs::path> & outputs,
   }
 }
 
+void
+NoteFramesOfReference(const std::string & one,
+                      const std::string & other,
+                      const std::filesystem::path & file,
+                      const Events & events)
+{
+  if (!one.empty() && !other.empty() && one != other)
+  {
+    events.Note("warning: " + file.filename().string() +
+                " has another frame of reference (DICOM) than the scan that it is laid over: their positions belong "
+                "together only if a registration made them so");
+  }
+}
+
 } // namespace rhombic

@@ -186,7 +186,10 @@ RequireSamePlace(const std::filesystem::path & file,
 }
 
 VolumeValues
-SampleVolume(const ColourBy & by, const std::vector<SceneSurface> & surfaces, const Events & events)
+SampleVolume(const ColourBy & by,
+             const std::string & frameOfReference,
+             const std::vector<SceneSurface> & surfaces,
+             const Events & events)
 {
   ScanSource source;
   source.path = by.file;
@@ -199,6 +202,7 @@ SampleVolume(const ColourBy & by, const std::vector<SceneSurface> & surfaces, co
   }
   const auto [low, high] = BoxOfVoxels(GeometryOf(volume.image));
   RequireSamePlace(by.file, low, high, surfaces);
+  NoteFramesOfReference(frameOfReference, ReadDicomExamination(volume).frameOfReference, by.file, events);
   VolumeValues sampled;
   double factor = 1.0;
   std::tie(factor, sampled.unit) = FindUnit(volume, by.file.filename().string(), events);

@@ -18,7 +18,10 @@ struct VolumeValues
 
 /** The values of a volume at the points of surfaces. Throws Failure as ColourSurfaces() does. */
 VolumeValues
-SampleVolume(const ColourBy & by, const std::vector<SceneSurface> & surfaces, const Events & events);
+SampleVolume(const ColourBy & by,
+             const std::string & frameOfReference,
+             const std::vector<SceneSurface> & surfaces,
+             const Events & events);
 
 /** Throws Failure(Geometry) if the boxes of surfaces and of something else do not meet, with their distance.
  * \param low and \param high in LPS mm */

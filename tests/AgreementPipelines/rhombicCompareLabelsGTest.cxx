@@ -445,6 +445,98 @@ TEST_F(CompareLabels, GrowthOfALesion)
     << "a lesion that shrinks does not double";
 }
 
+/** Lesions along a row, as intervals of x in mm: label 1 among organs of label 2. */
+LabelFunction
+LesionsAt(const std::vector<std::pair<double, double>> & intervals)
+{
+  return [=](const PointType & p) {
+    const bool isInRow = std::abs(p[1]) <= 3.0 && std::abs(p[2]) <= 3.0;
+    const bool isInLesion = isInRow && std::any_of(intervals.begin(), intervals.end(), [&](const auto & interval) {
+                              return p[0] >= interval.first && p[0] <= interval.second;
+                            });
+    return isInLesion ? 1 : p[1] > 10.0 && p[1] < 16.0 && std::abs(p[0]) < 15.0 && std::abs(p[2]) < 12.0 ? 2 : 0;
+  };
+}
+
+/** A lesion that goes, two that merge, one that splits, one that is kept and one that is new. */
+TEST_F(CompareLabels, PartsAreFollowed)
+{
+  this->Write("a.nrrd", Cubes, LesionsAt({ { -22, -19 }, { -15, -13 }, { -11, -8 }, { -4, 6 }, { 10, 14 } }));
+  this->Write("b.nrrd", Cubes, LesionsAt({ { -15, -8 }, { -4, -1 }, { 3, 6 }, { 10, 15 }, { 19, 22 } }));
+  this->WriteText("a.tsv", "index\tname\n1\tlesion\n2\tliver\n");
+  this->WriteText("b.tsv", "index\tname\n1\tlesion\n2\tliver\n");
+  CompareLabelsSettings settings = this->SettingsFor("a.nrrd", "b.nrrd");
+  settings.parts = { "les*" };
+  settings.tolerances = { { "*", 1.0 }, { "lesion", 3.0 } };
+  settings.table = this->PathOf("table.tsv");
+  const auto found = this->Run(settings);
+  struct Expected
+  {
+    const char * label;
+    std::size_t partsOfFirst, partsOfSecond;
+    double lengthInFirst, lengthInSecond; // of the voxels in mm; half a voxel more at both ends
+  };
+  // Voxels' centres are at halves, so an interval from -4 to 6 has ten voxels; the largest of A come first.
+  const Expected expected[] = { { "lesion 1", 1, 2, 10, 6 },
+                                { "lesion 2", 2, 1, 5, 7 },
+                                { "lesion 3", 1, 1, 4, 5 },
+                                { "lesion 4", 1, 0, 3, 0 },
+                                { "lesion 5", 0, 1, 0, 3 } };
+  ASSERT_EQ(found.size(), 6u);
+  for (std::size_t n = 0; n < 5; ++n)
+  {
+    const Expected & part = expected[n];
+    EXPECT_EQ(found[n].label, part.label);
+    ASSERT_TRUE(found[n].change.has_value());
+    EXPECT_EQ(found[n].change->partsOfFirst, part.partsOfFirst) << part.label;
+    EXPECT_EQ(found[n].change->partsOfSecond, part.partsOfSecond) << part.label;
+    EXPECT_NEAR(*found[n].first.voxelMillilitres, 0.036 * part.lengthInFirst, 1e-9) << part.label;
+    EXPECT_NEAR(*found[n].second.voxelMillilitres, 0.036 * part.lengthInSecond, 1e-9) << part.label;
+    EXPECT_EQ(found[n].tolerance, 3.0);
+  }
+  EXPECT_EQ(found[5].label, "liver");
+  EXPECT_FALSE(found[5].change.has_value());
+  EXPECT_EQ(found[5].dice, 1.0);
+  std::ifstream file(settings.table);
+  std::string text{ std::istreambuf_iterator<char>(file), {} };
+  for (const char * const words :
+       { "\tsplit\t1\t2\n", "\tmerged\t2\t1\n", "\tkept\t1\t1\n", "\tgone\t1\t0\n", "\tnew\t0\t1\n" })
+  {
+    EXPECT_NE(text.find(words), std::string::npos) << words << " in " << text;
+  }
+
+  settings.parts = { "lesoin" };
+  this->ExpectFailure(settings, FailureKind::Usage, "did you mean lesion?");
+  settings.parts = { "lesion" };
+  std::mt19937 random(3);
+  this->Write("a.nrrd", Cubes, [&](const PointType & p) { return p[1] > 0.0 ? 2 : random() % 40 == 0 ? 1 : 0; });
+  this->ExpectFailure(settings, FailureKind::Usage, "at most 1000");
+}
+
+TEST_F(CompareLabels, VoxelMetricsAreColumnsOfTheirOwn)
+{
+  this->Write("a.nrrd", Cubes, Ball(8.0));
+  this->Write("b.nrrd", Cubes, Ball(9.0));
+  CompareLabelsSettings settings = this->SettingsFor("a.nrrd", "b.nrrd");
+  settings.hasVoxelMetrics = true;
+  settings.table = this->PathOf("table.csv");
+  const auto found = this->Run(settings).at(0);
+  ASSERT_TRUE(found.voxels.has_value());
+  EXPECT_NEAR(found.voxels->meanToFirst, 1.0, 0.4);
+  std::ifstream file(settings.table);
+  std::string heading;
+  std::getline(file, heading);
+  EXPECT_NE(
+    heading.find("deepmind_mean_a_to_b_mm,deepmind_mean_b_to_a_mm,deepmind_hd_mm,deepmind_hd95_mm,deepmind_nsd"),
+    std::string::npos)
+    << heading;
+  EXPECT_EQ(heading.find("change"), std::string::npos);
+  this->Write("b.nrrd", Slabs, Ball(9.0));
+  this->ExpectFailure(settings, FailureKind::Usage, "on one grid");
+  settings.kind = rhombic::ComparedKind::Surfaces;
+  this->ExpectFailure(settings, FailureKind::Usage, "--voxel-metrics");
+}
+
 TEST_F(CompareLabels, MistakesAreNotTakenForResults)
 {
   const auto map = [](int one, int two) -> LabelFunction {

@@ -15,6 +15,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <map>
 
 namespace
@@ -139,6 +141,25 @@ TEST_F(RenderAgreementTest, ColoursAreThoseOfTheDistance)
   EXPECT_GT(like, 50'000) << "four views of a ball";
 }
 
+TEST_F(RenderAgreementTest, AnInteractivePageHasTheTableAndBothSurfaces)
+{
+  m_Page = m_Folder.Path() / "page.html";
+  ASSERT_EQ(this->Draw(20, 23, 4.0).size(), 1U);
+  std::ifstream file(m_Page);
+  const std::string page{ std::istreambuf_iterator<char>(file), {} };
+  for (const char * const words :
+       { ">HD95 mm</th>", ">Dice</th>", "\"group\":\"A\"", "\"group\":\"B\",\"hidden\":true" })
+  {
+    EXPECT_NE(page.find(words), std::string::npos) << words;
+  }
+  EXPECT_EQ(page.find(">volume, ml</th>"), std::string::npos);
+  const std::size_t row = page.find("<bdi>mask</bdi></th>");
+  ASSERT_NE(row, std::string::npos);
+  const std::string cells = page.substr(row, page.find("</tr>", row) - row);
+  EXPECT_NE(cells.find(">33."), std::string::npos) << "ml of A: " << cells;
+  EXPECT_NE(cells.find(">0.000<"), std::string::npos) << "no part is within the tolerance: " << cells;
+}
+
 TEST_F(RenderAgreementTest, AnEmptySegmentationIsRefused)
 {
   try
@@ -156,7 +177,7 @@ TEST_F(RenderAgreementTest, AnEmptySegmentationIsRefused)
 TEST_F(RenderAgreementTest, ARangeMustBeAboveZero)
 {
   EXPECT_THROW(this->Draw(20, 23, 0.0), Failure);
-  m_Page.replace_extension(".html");
+  m_Page.replace_extension(".docx");
   EXPECT_THROW(this->Draw(20, 23, 1.0), Failure);
 }
 

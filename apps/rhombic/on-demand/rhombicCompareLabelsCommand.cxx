@@ -32,6 +32,8 @@ struct CompareLabelsOptions
   std::string transform;
   bool isTransformInverted = false;
   std::vector<std::string> dates;
+  std::vector<std::string> parts;
+  std::string voxelMetrics;
   std::string output;
   std::string page;
   std::optional<double> range;
@@ -149,6 +151,9 @@ GetSettings(const CompareLabelsOptions & options, const CommandSettings & comman
     }
     settings.days = CountDays(options.dates[0], options.dates[1]);
   }
+  settings.parts = options.parts;
+  settings.hasVoxelMetrics = !options.voxelMetrics.empty() &&
+                             FindNamed<bool>("kind of voxel metrics", options.voxelMetrics, { { "deepmind", true } });
   settings.table = options.output;
   settings.page = options.page;
   settings.provenance = options.scan.GetProvenance(command);
@@ -220,6 +225,17 @@ MeasureTable()
       "in which it doubles",
       OfKind(SettingKind::Source),
       SplitAtCommas },
+    { "--parts",
+      &Options::parts,
+      "labels whose parts are compared one by one, as lesions in a follow-up, by name with * and ?: parts of A and B "
+      "that overlap are one row; the table tells which are kept, new, gone, split and merged; repeatable",
+      Excludes({ "--surfaces", "--threshold" }),
+      SplitAtCommas },
+    { "--voxel-metrics",
+      &Options::voxelMetrics,
+      "further columns with the distances between voxels that published tables have: deepmind, those of its program "
+      "surface-distance; the maps have one grid",
+      Excludes({ "--surfaces", "--threshold" }) },
     { "-o,--output",
       &Options::output,
       "table of the agreement: .csv, .tsv or .json (default: printed)",
@@ -227,7 +243,7 @@ MeasureTable()
     { "--sheet",
       &Options::page,
       "also draw a page, A4: A's surfaces coloured by distance from B's, slices with both outlines, and the table, "
-      "worst labels first: .pdf, .png, .jpg or .tif",
+      "worst labels first: .pdf, .png, .jpg, .tif, or .html for an interactive page",
       OfKind(SettingKind::Output) },
     { "--range",
       &Options::range,

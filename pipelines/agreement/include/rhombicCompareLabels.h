@@ -53,7 +53,9 @@ struct CompareLabelsSettings
   std::filesystem::path transform;  ///< of ITK in text, affine: maps points of A's space to B's; empty: one space
   bool isTransformInverted = false; ///< the transform maps points of B's space to A's
 
-  std::optional<double> days; ///< from A to B, above 0: the table has the growth of each label
+  std::optional<double> days;     ///< from A to B, above 0: the table has the growth of each label
+  std::vector<std::string> parts; ///< patterns of names of labels of maps, whose parts are compared one by one
+  bool hasVoxelMetrics = false;   ///< of label maps on one grid: see VoxelMetrics
 
   std::filesystem::path table; ///< .csv, .tsv or .json; empty: none
   std::filesystem::path page;  ///< for RenderAgreement(), which needs the surfaces: they are kept; empty: none
@@ -67,6 +69,23 @@ enum class AgreementStatus
   MissingInFirst,
   MissingInSecond,
   BothEmpty
+};
+
+/** What became of the parts of a label that overlap: as "split" if A has one and B has two. */
+struct PartChange
+{
+  std::size_t partsOfFirst = 0;
+  std::size_t partsOfSecond = 0;
+};
+
+/** Measures between the corners of voxels, as DeepMind's program surface-distance defines them. */
+struct VoxelMetrics
+{
+  double meanToSecond = 0.0; ///< mean distance in mm from A to B
+  double meanToFirst = 0.0;
+  double hausdorff = 0.0; ///< in mm
+  double hausdorff95 = 0.0;
+  double normalizedDice = 0.0;
 };
 
 /** Measures of a label in one of the segmentations. */
@@ -94,6 +113,8 @@ struct LabelAgreement
   Colour colour{ 0.8, 0.8, 0.8 };                   ///< of the label in A, or else in B
   itk::TriangleSurface::ConstPointer firstSurface;  ///< for pages, and next; null where the label is missing
   itk::TriangleSurface::ConstPointer secondSurface; ///< in A's space
+  std::optional<PartChange> change;                 ///< for parts of a label
+  std::optional<VoxelMetrics> voxels;               ///< for AgreementStatus::Compared, if asked for
 };
 
 /** The days from one date to another, both written as 2025-01-31. Throws Failure(Usage) for other texts, for dates that
@@ -109,12 +130,14 @@ CheckCompareLabels(const CompareLabelsSettings & settings);
 /** The agreement of all labels, in the order of A's labels, then those of B alone; and the files.
  *
  * Labels are paired by name if both maps have names, and by value if neither has. Two masks of one label each are a
- * pair. Surface files are paired as labels with names; two files of one surface each are a pair. B's points are brought
- * to A's space. Notes give the agreement of each label, and doubts.
+ * pair. A label that is compared in parts has a row for each group of parts of A and B that overlap. Surface files are
+ * paired as labels with names; two files of one surface each are a pair. B's points are brought to A's space. Notes
+ * give the agreement of each label, and doubts.
  *
  * Throws Failure: Usage for labels that cannot be paired, for patterns that fit nothing, and for maps of which only one
- * has names; Geometry for segmentations that lie apart; Unreadable for a transform that is not affine; and those of
- * LoadVolume(), LabelsToWalls() and ReadSurfaces(). */
+ * has names, for patterns of parts that fit nothing or a label of more than 1000 parts, and for voxel metrics of maps
+ * that do not have one grid; Geometry for segmentations that lie apart; Unreadable for a transform that is not affine;
+ * and those of LoadVolume(), LabelsToWalls() and ReadSurfaces(). */
 std::vector<LabelAgreement>
 CompareLabels(const CompareLabelsSettings & settings, const Events & events, std::vector<MadeFile> & made);
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <iterator>
 #include <sstream>
 
 namespace rhombic
@@ -20,7 +21,20 @@ struct Column
   const char * name; ///< in snake_case, with the unit at its end
   Report (*find)(const LabelAgreement & label);
   bool isAveraged = false; ///< over all labels
+  bool (*isNeeded)(const CompareLabelsSettings & settings) = [](const CompareLabelsSettings &) { return true; };
 };
+
+bool
+HasParts(const CompareLabelsSettings & settings)
+{
+  return !settings.parts.empty();
+}
+
+bool
+HasVoxelMetrics(const CompareLabelsSettings & settings)
+{
+  return settings.hasVoxelMetrics;
+}
 
 Report
 NumberOrNull(std::optional<double> number)
@@ -90,6 +104,33 @@ FindDoublingTime(const LabelAgreement & label)
            : std::nullopt;
 }
 
+/** What became of a part of a label from A to B. */
+std::string
+NameChange(const PartChange & change)
+{
+  if (change.partsOfFirst == 0 || change.partsOfSecond == 0)
+  {
+    return change.partsOfFirst == 0 ? "new" : "gone";
+  }
+  const bool isSplit = change.partsOfSecond > 1;
+  const bool isMerged = change.partsOfFirst > 1;
+  return isSplit && isMerged ? "regrouped" : isSplit ? "split" : isMerged ? "merged" : "kept";
+}
+
+template <double VoxelMetrics::*measure>
+Report
+FindVoxelMetric(const LabelAgreement & label)
+{
+  return label.voxels ? NumberOrNull((*label.voxels).*measure) : Report();
+}
+
+template <std::size_t PartChange::*count>
+Report
+CountParts(const LabelAgreement & label)
+{
+  return label.change ? Report((*label.change).*count) : Report();
+}
+
 const Column Columns[] = {
   { "label", [](const LabelAgreement & label) { return Report(label.label); } },
   { "status", [](const LabelAgreement & label) { return Report(NameStatus(label.status)); } },
@@ -127,7 +168,28 @@ const Column Columns[] = {
     [](const LabelAgreement & label) {
       return label.status == AgreementStatus::Compared ? Report(NameWorstSide(label)) : Report();
     } },
+  { "change",
+    [](const LabelAgreement & label) { return label.change ? Report(NameChange(*label.change)) : Report(); },
+    false,
+    HasParts },
+  { "parts_a", CountParts<&PartChange::partsOfFirst>, false, HasParts },
+  { "parts_b", CountParts<&PartChange::partsOfSecond>, false, HasParts },
+  { "deepmind_mean_a_to_b_mm", FindVoxelMetric<&VoxelMetrics::meanToSecond>, true, HasVoxelMetrics },
+  { "deepmind_mean_b_to_a_mm", FindVoxelMetric<&VoxelMetrics::meanToFirst>, true, HasVoxelMetrics },
+  { "deepmind_hd_mm", FindVoxelMetric<&VoxelMetrics::hausdorff>, true, HasVoxelMetrics },
+  { "deepmind_hd95_mm", FindVoxelMetric<&VoxelMetrics::hausdorff95>, true, HasVoxelMetrics },
+  { "deepmind_nsd", FindVoxelMetric<&VoxelMetrics::normalizedDice>, true, HasVoxelMetrics },
 };
+
+std::vector<Column>
+ColumnsFor(const CompareLabelsSettings & settings)
+{
+  std::vector<Column> columns;
+  std::copy_if(std::begin(Columns), std::end(Columns), std::back_inserter(columns), [&](const Column & column) {
+    return column.isNeeded(settings);
+  });
+  return columns;
+}
 
 /** "7 compared, 1 missing-in-A, 2 missing-in-B". */
 std::string
@@ -148,10 +210,10 @@ CountStatuses(const std::vector<LabelAgreement> & labels)
 }
 
 Report
-ReportMeans(const std::vector<LabelAgreement> & labels)
+ReportMeans(const std::vector<LabelAgreement> & labels, const std::vector<Column> & columns)
 {
   Report row;
-  for (const Column & column : Columns)
+  for (const Column & column : columns)
   {
     double sum = 0.0;
     std::size_t count = 0;
@@ -171,19 +233,20 @@ ReportMeans(const std::vector<LabelAgreement> & labels)
 } // namespace
 
 Report
-ReportAgreement(const std::vector<LabelAgreement> & labels)
+ReportAgreement(const std::vector<LabelAgreement> & labels, const CompareLabelsSettings & settings)
 {
+  const std::vector<Column> columns = ColumnsFor(settings);
   Report rows = Report::array();
   for (const LabelAgreement & label : labels)
   {
     Report row;
-    for (const Column & column : Columns)
+    for (const Column & column : columns)
     {
       row[column.name] = column.find(label);
     }
     rows.push_back(row);
   }
-  rows.push_back(ReportMeans(labels));
+  rows.push_back(ReportMeans(labels, columns));
   return rows;
 }
 
@@ -198,19 +261,19 @@ WriteAgreement(const Report & rows, const std::string & extension)
   const char * const between = isCSV ? "," : "\t";
   const char * const end = isCSV ? "\r\n" : "\n";
   std::ostringstream text;
-  for (const Column & column : Columns)
-  {
-    text << (&column == Columns ? "" : between) << column.name;
-  }
-  text << end;
-  for (const Report & row : rows)
-  {
-    for (const Column & column : Columns)
+  const auto addLine = [&](const Report & row, const auto & fieldOf) {
+    const char * before = "";
+    for (auto field = row.begin(); field != row.end(); ++field)
     {
-      const Report & value = row[column.name];
-      text << (&column == Columns ? "" : between) << (isCSV ? ToCSVField(value) : ToField(value));
+      text << before << fieldOf(field);
+      before = between;
     }
     text << end;
+  };
+  addLine(rows.front(), [](const auto & field) { return field.key(); });
+  for (const Report & row : rows)
+  {
+    addLine(row, [isCSV](const auto & field) { return isCSV ? ToCSVField(field.value()) : ToField(field.value()); });
   }
   return text.str();
 }
@@ -231,10 +294,11 @@ SummarizeAgreement(const LabelAgreement & label)
 {
   if (label.status != AgreementStatus::Compared)
   {
-    return label.label + ": " + NameStatus(label.status);
+    return label.label + ": " + (label.change ? NameChange(*label.change) : NameStatus(label.status));
   }
   const auto & surfaces = label.surfaces;
-  return label.label + ": " + (label.dice ? "Dice " + FormatFixed(*label.dice, 3) + ", " : "") + "HD95 " +
+  return label.label + ": " + (label.change ? NameChange(*label.change) + ", " : "") +
+         (label.dice ? "Dice " + FormatFixed(*label.dice, 3) + ", " : "") + "HD95 " +
          FormatFixed(surfaces.hausdorff95, 2) + " mm, HD " + FormatFixed(surfaces.hausdorff, 2) + " mm, MASD " +
          FormatFixed(surfaces.meanOfMeans, 2) + " mm, NSD " + FormatFixed(surfaces.normalizedDice, 3) + " at " +
          FormatNumber(label.tolerance) + " mm" +
@@ -255,7 +319,8 @@ DescribeAgreement(const std::vector<LabelAgreement> & labels)
   constexpr Shown shown[] = { { "volume_a_ml", "A ml", 2 }, { "volume_b_ml", "B ml", 2 }, { "dice", "Dice", 3 },
                               { "hd95_mm", "HD95 mm", 2 },  { "hd_mm", "HD mm", 2 },      { "masd_mm", "MASD mm", 2 },
                               { "nsd", "NSD", 3 } };
-  const Report rows = ReportAgreement(labels);
+  const CompareLabelsSettings settings;
+  const Report rows = ReportAgreement(labels, settings);
   std::size_t width = 5;
   for (const Report & row : rows)
   {
@@ -276,7 +341,13 @@ DescribeAgreement(const std::vector<LabelAgreement> & labels)
       const Report & value = row[column.column];
       text << std::setw(10) << (value.is_null() ? "" : FormatFixed(value.get<double>(), column.decimals));
     }
-    text << "  " << row["status"].get<std::string>() << '\n';
+    text << "  " << row["status"].get<std::string>();
+    const auto number = static_cast<std::size_t>(&row - &rows.front());
+    if (number < labels.size() && labels[number].change)
+    {
+      text << ", " << NameChange(*labels[number].change);
+    }
+    text << '\n';
   }
   return text.str();
 }

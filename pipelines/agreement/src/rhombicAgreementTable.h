@@ -10,9 +10,9 @@ namespace rhombic
 {
 
 /** Rows of all columns, one for each label, and the last one of the means: counts of missing labels are in its status.
- */
+ * The settings tell whether there are columns of parts and of voxel metrics. */
 Report
-ReportAgreement(const std::vector<LabelAgreement> & labels);
+ReportAgreement(const std::vector<LabelAgreement> & labels, const CompareLabelsSettings & settings);
 
 /** The rows as text: between commas for .csv, between tabs for .tsv, else as JSON. */
 std::string

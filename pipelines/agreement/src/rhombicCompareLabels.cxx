@@ -4,8 +4,10 @@
 #include "rhombicAgreementTable.h"
 #include "rhombicComparedSide.h"
 #include "rhombicFailure.h"
+#include "rhombicLabelParts.h"
 #include "rhombicSceneRules.h"
 #include "rhombicSurfaceMeasures.h"
+#include "rhombicVoxelMetrics.h"
 #include "rhombicVoxelSurface.h"
 #include "rhombicWording.h"
 
@@ -122,17 +124,18 @@ RequireOneSpace(const ComparedSide & first, const ComparedSide & second, const S
   }
 }
 
-/** Says by how much two grids of one size differ, where they do. */
-void
-NoteGrids(const ComparedSide & first, const ComparedSide & second, const SpaceMaps & maps, const Events & events)
+constexpr double GridTolerance = 0.01; // mm
+
+/** The largest distance in mm of the corners of two grids of one size; nothing for other grids. */
+std::optional<double>
+FindGridOffset(const ComparedSide & first, const ComparedSide & second, const SpaceMaps & maps)
 {
   if (!first.map || !second.map || maps.toFirst != nullptr ||
-      GeometryOf(first.map->scan.image).GetLargestPossibleRegion().GetSize() !=
-        GeometryOf(second.map->scan.image).GetLargestPossibleRegion().GetSize())
+      GeometryOf(first.map->scan.image).GetLargestPossibleRegion() !=
+        GeometryOf(second.map->scan.image).GetLargestPossibleRegion())
   {
-    return;
+    return std::nullopt;
   }
-  constexpr double tolerance = 0.01; // mm
   const std::vector<PointType> corners = FindCorners(first);
   const std::vector<PointType> others = FindCorners(second);
   double farthest = 0.0;
@@ -140,11 +143,32 @@ NoteGrids(const ComparedSide & first, const ComparedSide & second, const SpaceMa
   {
     farthest = std::max(farthest, corners[n].EuclideanDistanceTo(others[n]));
   }
-  if (farthest > 0.0)
+  return farthest;
+}
+
+/** Says by how much two grids of one size differ, where they do. */
+void
+NoteGrids(const std::optional<double> & offset, const Events & events)
+{
+  if (offset && *offset > 0.0)
   {
-    events.Note("the grids of A and B are of one size and up to " + FormatNumber(farthest, 2) + " mm apart" +
-                (farthest <= tolerance ? ", within the tolerance of " + FormatNumber(tolerance) + " mm for one grid"
-                                       : "; each keeps its place"));
+    events.Note("the grids of A and B are of one size and up to " + FormatNumber(*offset, 2) + " mm apart" +
+                (*offset <= GridTolerance
+                   ? ", within the tolerance of " + FormatNumber(GridTolerance) + " mm for one grid"
+                   : "; each keeps its place"));
+  }
+}
+
+/** Throws Failure(Usage) unless two maps have one grid of evenly spaced slices. */
+void
+RequireOneGrid(const ComparedSide & first, const ComparedSide & second, const std::optional<double> & offset)
+{
+  if (!offset || *offset > GridTolerance || !first.map->scan.sliceOrigins.empty() ||
+      !second.map->scan.sliceOrigins.empty())
+  {
+    throw Failure(FailureKind::Usage,
+                  "Voxel metrics need label maps on one grid of evenly spaced slices; leave out --voxel-metrics, or "
+                  "resample one map to the grid of the other.");
   }
 }
 
@@ -277,6 +301,30 @@ FindTolerance(const std::vector<LabelTolerance> & tolerances, const std::string 
   return found->millimetres;
 }
 
+/** The tolerance of a pair of labels, or of the labels of which it is a part. */
+double
+FindTolerance(const std::vector<LabelTolerance> & tolerances, const LabelPair & pair)
+{
+  return FindTolerance(tolerances, pair.whole.empty() ? pair.name : pair.whole);
+}
+
+/** The smallest region around two. */
+itk::ImageRegion<3>
+RegionAround(const itk::ImageRegion<3> & one, const itk::ImageRegion<3> & other)
+{
+  itk::Index<3> low = one.GetIndex();
+  itk::Index<3> high = one.GetUpperIndex();
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    low[axis] = std::min(low[axis], other.GetIndex(axis));
+    high[axis] = std::max(high[axis], other.GetUpperIndex()[axis]);
+  }
+  itk::ImageRegion<3> region;
+  region.SetIndex(low);
+  region.SetUpperIndex(high);
+  return region;
+}
+
 /** Mean distances in mm from the surfaces of a label map to those of their voxels, by the labels' numbers. */
 std::vector<std::optional<double>>
 FindNoiseFloors(const ComparedSide & side)
@@ -342,22 +390,36 @@ public:
   {
     NoteScale(m_Maps, events);
     RequireOneSpace(m_First, m_Second, m_Maps);
-    NoteGrids(m_First, m_Second, m_Maps, events);
+    const std::optional<double> gridOffset = FindGridOffset(m_First, m_Second, m_Maps);
+    NoteGrids(gridOffset, events);
+    if (m_First.map && m_Second.map && m_Maps.toSecond == nullptr)
+    {
+      NoteFramesOfReference(ReadDicomExamination(m_First.map->scan).frameOfReference,
+                            ReadDicomExamination(m_Second.map->scan).frameOfReference,
+                            settings.second.path,
+                            events);
+    }
+    if (settings.hasVoxelMetrics)
+    {
+      RequireOneGrid(m_First, m_Second, gridOffset);
+    }
     const bool areSingle = m_First.isSingle && m_Second.isSingle;
     m_Pairs = PairLabels(m_First.labels,
                          m_Second.labels,
                          { settings.pairs, settings.pairsByValue, areSingle, settings.only, settings.hidden });
     for (const LabelPair & pair : m_Pairs)
     {
-      FindTolerance(settings.tolerances, pair.name); // before long work
+      FindTolerance(settings.tolerances, pair); // before long work
     }
     this->NotePairing();
+    DivideIntoParts(settings.parts, m_Maps.toSecond, m_First, m_Second, m_Pairs);
   }
 
   std::vector<LabelAgreement>
   Run()
   {
     this->CompareVoxels();
+    const std::vector<std::optional<VoxelMetrics>> voxels = this->MeasureVoxels();
     ExtractSide(m_Settings, ChosenOf(m_Pairs, &LabelPair::first), m_Events, m_First);
     std::vector<std::optional<double>> noise(m_First.labels.size());
     if (m_Settings.kind == ComparedKind::Labels && !m_Settings.takesVoxelSurfaces)
@@ -374,6 +436,7 @@ public:
       const LabelPair & pair = m_Pairs[n];
       agreements.push_back(this->Compare(pair));
       agreements.back().noiseFloor = pair.first ? noise[*pair.first] : std::nullopt;
+      agreements.back().voxels = voxels[n];
       m_Events.Note(SummarizeAgreement(agreements.back()));
     }
     if (agreements.empty()) // both hold background only
@@ -433,6 +496,28 @@ private:
     }
   }
 
+  /** The voxel metrics of the pairs, if they are asked for. */
+  std::vector<std::optional<VoxelMetrics>>
+  MeasureVoxels() const
+  {
+    std::vector<std::optional<VoxelMetrics>> metrics(m_Pairs.size());
+    for (std::size_t n = 0; m_Settings.hasVoxelMetrics && n < m_Pairs.size(); ++n)
+    {
+      const LabelPair & pair = m_Pairs[n];
+      if (pair.first && pair.second)
+      {
+        const int inFirst = m_First.labels[*pair.first].value;
+        const int inSecond = m_Second.labels[*pair.second].value;
+        const auto region = RegionAround(m_First.moments.at(inFirst).region, m_Second.moments.at(inSecond).region);
+        metrics[n] = ComputeVoxelMetrics({ m_First.map->scan, inFirst },
+                                         { m_Second.map->scan, inSecond },
+                                         region,
+                                         FindTolerance(m_Settings.tolerances, pair));
+      }
+    }
+    return metrics;
+  }
+
   /** Says if a part of a label of B lies outside of A's grid. */
   void
   NoteOutside(const std::string & name, int inSecond) const
@@ -456,7 +541,8 @@ private:
     LabelAgreement agreement;
     agreement.label = pair.name;
     agreement.days = m_Settings.days;
-    agreement.tolerance = FindTolerance(m_Settings.tolerances, pair.name);
+    agreement.tolerance = FindTolerance(m_Settings.tolerances, pair);
+    agreement.change = pair.change;
     agreement.first = MeasureVolume(m_First, pair.first);
     agreement.second = MeasureVolume(m_Second, pair.second);
     const ComparedLabel & label = pair.first ? m_First.labels[*pair.first] : m_Second.labels[*pair.second];
@@ -552,6 +638,11 @@ CheckCompareLabels(const CompareLabelsSettings & settings)
   {
     throw Failure(FailureKind::Usage, "No transform is named that could be inverted; name it with --transform.");
   }
+  if (settings.kind != ComparedKind::Labels && (!settings.parts.empty() || settings.hasVoxelMetrics))
+  {
+    throw Failure(FailureKind::Usage,
+                  "Only label maps have parts and voxel metrics; leave out --parts and --voxel-metrics.");
+  }
   std::vector<fs::path> outputs;
   if (!settings.table.empty())
   {
@@ -576,7 +667,7 @@ CompareLabels(const CompareLabelsSettings & settings, const Events & events, std
   if (!settings.table.empty())
   {
     OutputFiles files{ settings.provenance };
-    Report rows = ReportAgreement(agreements);
+    Report rows = ReportAgreement(agreements, settings);
     StageText(WriteAgreement(rows, settings.table.extension().string()), settings.table, files.staged);
     AddOutput(settings.table, "agreement", { { "agreement", rows } }, files);
     files.staged.Commit();

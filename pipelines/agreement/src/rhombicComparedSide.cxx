@@ -186,7 +186,10 @@ ExtractSide(const CompareLabelsSettings & settings,
   making.maximumMemory = settings.first.lattice.maximumMemory;
   for (const ComparedLabel & label : side.labels) // all, as walls depend on the labels beside them
   {
-    making.labels.push_back(std::to_string(label.value));
+    if (side.moments.count(label.value) > 0)
+    {
+      making.labels.push_back(std::to_string(label.value));
+    }
   }
   LabelMesh mesh = LabelsToWalls(*side.map, making, events);
   ExtractSurfaces(mesh);

@@ -16,7 +16,7 @@ namespace rhombic
 struct ComparedSide
 {
   std::string file;                  ///< for messages
-  std::vector<ComparedLabel> labels; ///< those with voxels or triangles
+  std::vector<ComparedLabel> labels; ///< those with voxels or triangles, and those that were divided into parts
   bool isSingle = false;             ///< one mask, one surface or one isosurface, whose name does not matter
 
   std::optional<LabelMap> map;                  ///< of labels and isosurfaces: 1 is inside

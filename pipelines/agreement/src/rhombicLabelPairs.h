@@ -1,6 +1,8 @@
 #ifndef rhombicLabelPairs_h
 #define rhombicLabelPairs_h
 
+#include "rhombicCompareLabels.h"
+
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -35,6 +37,8 @@ struct LabelPair
   std::string name;
   std::optional<std::size_t> first;
   std::optional<std::size_t> second;
+  std::string whole = {};                ///< the label, of which the pair is a part; empty for whole labels
+  std::optional<PartChange> change = {}; ///< for parts
 };
 
 /** The number of the label with this name, else with this value. */

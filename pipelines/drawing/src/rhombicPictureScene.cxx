@@ -158,6 +158,7 @@ MakeSceneOfScan(const PictureSource & source,
   const bool isLattice = scan == nullptr;
   scene.isOriented = isLattice || scan->isOriented;
   scene.examination = isLattice ? "Scan" : DescribeExamination(*scan, !loaded.scan);
+  scene.frameOfReference = isLattice ? "" : ReadDicomExamination(*scan).frameOfReference;
   const std::optional<SliceBox> box = isLattice ? std::nullopt : std::optional(BoxOf(*scan));
   if (keepsScan && loaded.scan)
   {
@@ -275,7 +276,7 @@ MakePictureScene(const PictureSource & source,
 void
 ColourSurfaces(const ColourBy & by, PictureScene & scene, const Events & events)
 {
-  SurfaceColours colours = ColourSurfaces(by, scene.surfaces, events);
+  SurfaceColours colours = ColourSurfaces(by, scene.frameOfReference, scene.surfaces, events);
   for (SceneSurface & surface : scene.surfaces)
   {
     if (scene.surfaces.size() == 1)

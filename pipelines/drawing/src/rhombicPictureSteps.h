@@ -5,7 +5,7 @@
 #include "rhombicDicomCapture.h"
 #include "rhombicNamePlaces.h"
 #include "rhombicPictureIO.h"
-#include "rhombicRenderScan.h"
+#include "rhombicRenderPage.h"
 #include "rhombicSheet.h"
 #include "rhombicSurfaceRenderer.h"
 
@@ -26,13 +26,14 @@ namespace rhombic
 struct PictureScene
 {
   std::vector<SceneSurface> surfaces;
-  std::vector<LegendRow> rows; ///< of the surfaces, in their order
-  std::optional<Scan> scan;    ///< for greys; none without a scan, and when it was not to be kept
-  SliceBox box;                ///< of the scan or label map, else around the surfaces
-  bool isOriented = true;      ///< whether it is known how the surfaces lie in the patient
-  std::string examination;     ///< "CT chest", "PET", "Segmentation", "Scan" if nothing is known, "Surfaces" of files
-  std::string thresholds;      ///< "bone from 250.5, skin from -300.5"; empty without isosurfaces
-  std::string unit;            ///< of the scan's values: "HU", "Bq/ml"; empty if unknown
+  std::vector<LegendRow> rows;  ///< of the surfaces, in their order
+  std::optional<Scan> scan;     ///< for greys; none without a scan, and when it was not to be kept
+  SliceBox box;                 ///< of the scan or label map, else around the surfaces
+  bool isOriented = true;       ///< whether it is known how the surfaces lie in the patient
+  std::string examination;      ///< "CT chest", "PET", "Segmentation", "Scan" if nothing is known, "Surfaces" of files
+  std::string thresholds;       ///< "bone from 250.5, skin from -300.5"; empty without isosurfaces
+  std::string unit;             ///< of the scan's values: "HU", "Bq/ml"; empty if unknown
+  std::string frameOfReference; ///< see DicomExamination
   std::vector<std::string> facts;         ///< "scan: DICOM CT, 512 x 512 x 138, ...", and so on
   std::optional<ColourScale> scale;       ///< of the surfaces' points, if they are coloured by numbers
   std::vector<SceneSurface> drawnAsLines; ///< other surfaces, of which pages show the outlines alone
@@ -178,6 +179,14 @@ StageScenePages(const RenderSheetSettings & settings,
                 SurfaceRenderer & renderer,
                 const Events & events,
                 OutputFiles & outputs);
+
+/** Draws the still pictures of a scene, makes its interactive page, and stages the page with the scene's report. */
+void
+StageScenePage(const RenderPageSettings & settings,
+               PictureScene & scene,
+               SurfaceRenderer & renderer,
+               const Events & events,
+               OutputFiles & outputs);
 
 /** Height of a slice through the whole scene, divided by its width. */
 double

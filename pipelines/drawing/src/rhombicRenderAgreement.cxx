@@ -3,6 +3,7 @@
 #include "rhombicColourBy.h"
 #include "rhombicFailure.h"
 #include "rhombicPictureSteps.h"
+#include "rhombicRenderPage.h"
 #include "rhombicSurfaceRenderer.h"
 #include "rhombicWording.h"
 
@@ -24,6 +25,18 @@ SheetOf(const CompareLabelsSettings & settings)
   sheet.title = "Agreement of two segmentations";
   sheet.provenance = settings.provenance;
   return sheet;
+}
+
+/** The page as an interactive one. */
+RenderPageSettings
+InteractivePageOf(const CompareLabelsSettings & settings)
+{
+  RenderPageSettings page;
+  page.source.scan.lattice.maximumMemory = settings.first.lattice.maximumMemory;
+  page.page = settings.page;
+  page.title = SheetOf(settings).title;
+  page.provenance = settings.provenance;
+  return page;
 }
 
 bool
@@ -157,7 +170,11 @@ CheckAgreementPage(const CompareLabelsSettings & settings, const std::optional<d
   {
     throw Failure(FailureKind::Usage, "The range of colours must be above 0 mm; write --range 3, for example.");
   }
-  if (!settings.page.empty())
+  if (IsPagePath(settings.page))
+  {
+    CheckRenderPage(InteractivePageOf(settings));
+  }
+  else if (!settings.page.empty())
   {
     CheckRenderSheet(SheetOf(settings));
   }
@@ -171,14 +188,21 @@ RenderAgreement(const CompareLabelsSettings & settings,
 {
   std::vector<LabelAgreement> worstFirst = labels;
   std::stable_sort(worstFirst.begin(), worstFirst.end(), IsWorse);
-  const PictureScene scene = SceneOf(settings, worstFirst, range, events);
+  PictureScene scene = SceneOf(settings, worstFirst, range, events);
+  SurfaceRenderer renderer;
+  OutputFiles outputs{ settings.provenance };
+  if (IsPagePath(settings.page))
+  {
+    StageScenePage(InteractivePageOf(settings), scene, renderer, events, outputs);
+    outputs.staged.Commit();
+    return outputs.made;
+  }
   RenderSheetSettings sheet = SheetOf(settings);
+  sheet.names = !settings.parts.empty(); // "lesion 3" in the table and in the views
   if (const std::vector<View> faces = ViewsOfFaces(scene.surfaces); !faces.empty())
   {
     sheet.views = faces;
   }
-  SurfaceRenderer renderer;
-  OutputFiles outputs{ settings.provenance };
   const std::vector<PlaneRequest> planes{ { SlicePlane::Axial, "" },
                                           { SlicePlane::Coronal, "" },
                                           { SlicePlane::Sagittal, "" } };

@@ -4,6 +4,7 @@
 #include "rhombicGreyWindow.h"
 #include "rhombicInteractivePage.h"
 #include "rhombicPictureSteps.h"
+#include "rhombicSilhouette.h"
 #include "rhombicSurfaceRenderer.h"
 #include "rhombicWording.h"
 
@@ -55,6 +56,8 @@ DrawViews(const RenderPageSettings & settings,
   auto drawn = renderer.Render(scene, render, settings.views);
   for (std::size_t n = 0; n < drawn.size(); ++n)
   {
+    annotations.outlines =
+      FindSilhouettes(source.drawnAsLines, drawn[n].projection.value(), InkOn({ { 0.0, 0.0, 0.0 } }).colour);
     Annotate(drawn[n].picture, drawn[n].projection.value(), annotations);
     page.views.push_back({ std::move(drawn[n].picture), settings.views[n].name });
   }
@@ -162,11 +165,12 @@ ContentOf(const RenderPageSettings & settings, const PictureScene & scene)
   page.isOriented = scene.isOriented;
   page.largestSize = settings.largestSize;
   constexpr std::size_t few = 8; // need no groups
-  const bool hasGroups = scene.rows.size() > few;
+  const bool hasOthers = !scene.drawnAsLines.empty();
+  const bool hasGroups = scene.rows.size() > few || hasOthers;
   for (std::size_t n = 0; n < scene.surfaces.size(); ++n)
   {
     const LegendRow & row = scene.rows[n];
-    const std::string group = row.group.empty() ? "other" : row.group;
+    const std::string group = hasOthers ? "A" : row.group.empty() ? "other" : row.group;
     page.surfaces.push_back({ scene.surfaces[n], hasGroups ? group : "", row.volume, row.area, row.mean });
     page.surfaces.back().scene.name = row.name;
   }
@@ -175,6 +179,20 @@ ContentOf(const RenderPageSettings & settings, const PictureScene & scene)
     page.scan = &*scene.scan;
     page.box = BoxOf(*scene.scan);
     page.window = WindowFromText(settings.slice.window, *scene.scan);
+  }
+  for (SceneSurface other : scene.drawnAsLines)
+  {
+    constexpr double opacity = 0.5;
+    other.opacity = opacity;
+    page.surfaces.push_back({ other, "B", {}, {}, {}, true });
+  }
+  if (!scene.headings.empty())
+  {
+    page.table.emplace().headings = scene.headings;
+    for (const LegendRow & row : scene.rows)
+    {
+      page.table->rows.push_back({ row.name, row.colour, row.figures });
+    }
   }
   page.facts.push_back(DescribePrivacy(scene, page.scan != nullptr));
   return page;
@@ -231,20 +249,13 @@ CheckRenderPage(const RenderPageSettings & settings)
   return WithSidecars({ settings.page }, settings.provenance);
 }
 
-std::vector<MadeFile>
-RenderPage(const RenderPageSettings & settings, const Events & events, std::optional<SourceVolume> volume)
+void
+StageScenePage(const RenderPageSettings & settings,
+               PictureScene & scene,
+               SurfaceRenderer & renderer,
+               const Events & events,
+               OutputFiles & outputs)
 {
-  CheckOutputs(CheckRenderPage(settings), settings.source.scan, settings.source.surfaces, InputsOf(settings.colourBy));
-  SurfaceRenderer renderer;
-  renderer.CheckSettings(SettingsOf(settings, SideOfView));
-  PictureSource source = settings.source;
-  NeedPlaces(PlanesOf(settings), source.surfaces.rules);
-  PictureScene scene = MakePictureScene(source, std::move(volume), settings.hasSlices, events);
-  OpenEnclosing(source.surfaces, {}, scene, events);
-  if (settings.colourBy)
-  {
-    ColourSurfaces(*settings.colourBy, scene, events);
-  }
   PageContent content = ContentOf(settings, scene);
   events.Note("page: " + content.facts.back());
   Scene drawn;
@@ -261,10 +272,27 @@ RenderPage(const RenderPageSettings & settings, const Events & events, std::opti
     events.Note("page: " + note);
   }
   scene.report["page"] = ReportWeight(page.weight);
-  OutputFiles outputs{ settings.provenance };
   StageText(page.html, settings.page, outputs.staged);
   AddOutput(settings.page, "page", scene.report, outputs);
   StageFilesBeside({ content.views.front().picture }, settings, std::nullopt, {}, 0.0, events, outputs);
+}
+
+std::vector<MadeFile>
+RenderPage(const RenderPageSettings & settings, const Events & events, std::optional<SourceVolume> volume)
+{
+  CheckOutputs(CheckRenderPage(settings), settings.source.scan, settings.source.surfaces, InputsOf(settings.colourBy));
+  SurfaceRenderer renderer;
+  renderer.CheckSettings(SettingsOf(settings, SideOfView));
+  PictureSource source = settings.source;
+  NeedPlaces(PlanesOf(settings), source.surfaces.rules);
+  PictureScene scene = MakePictureScene(source, std::move(volume), settings.hasSlices, events);
+  OpenEnclosing(source.surfaces, {}, scene, events);
+  if (settings.colourBy)
+  {
+    ColourSurfaces(*settings.colourBy, scene, events);
+  }
+  OutputFiles outputs{ settings.provenance };
+  StageScenePage(settings, scene, renderer, events, outputs);
   outputs.staged.Commit();
   return outputs.made;
 }

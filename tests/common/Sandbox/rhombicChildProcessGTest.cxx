@@ -10,6 +10,7 @@
 #include <iterator>
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace
@@ -114,7 +115,29 @@ TEST_F(ChildProcesses, ProgramsThatCanNotStartAreNamed)
   catch (const rhombic::Failure & failure)
   {
     EXPECT_STREQ(failure.GetDescription(), "Cannot start /no/such/program: No such file or directory.");
+    EXPECT_EQ(failure.GetKind(), rhombic::FailureKind::Internal);
   }
+}
+
+/** A process may have so few files open that none is left for the pipe to a child. */
+TEST_F(ChildProcesses, NoMoreFilesAreNoDefect)
+{
+  const ChildSettings settings = this->Shell("true");
+  rlimit before{};
+  getrlimit(RLIMIT_NOFILE, &before);
+  const rlimit none{ 3, before.rlim_max };
+  setrlimit(RLIMIT_NOFILE, &none);
+  rhombic::FailureKind kind{};
+  try
+  {
+    const ChildProcess child(settings);
+  }
+  catch (const rhombic::Failure & failure)
+  {
+    kind = failure.GetKind();
+  }
+  setrlimit(RLIMIT_NOFILE, &before);
+  EXPECT_EQ(kind, rhombic::FailureKind::Memory);
 }
 
 TEST_F(ChildProcesses, HelpersOfAnotherVersionDoNotRun)

@@ -1,6 +1,8 @@
 #ifndef rhombicChildProcess_h
 #define rhombicChildProcess_h
 
+#include "rhombicFailure.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -20,6 +22,11 @@ struct ChildSettings
   int socket = -1;                            ///< a descriptor that is its standard input; negative: the file is
   std::uintmax_t memory = 0;                  ///< the most that it can allocate, in bytes; 0: as much as this process
 };
+
+/** The kind of a failure to start a process, by the number of the error: Memory where the system has no more memory,
+ * processes or open files, else Internal. */
+FailureKind
+KindOfStartError(int error);
 
 /** \class ChildProcess
  * \brief A program that runs beside this one, without standard error, without a copy of this process's memory, and

@@ -62,6 +62,13 @@ Spawn(const ChildSettings & settings, pid_t & process)
 
 } // namespace
 
+FailureKind
+KindOfStartError(int error)
+{
+  const bool isScarce = error == ENOMEM || error == EAGAIN || error == EMFILE || error == ENFILE;
+  return isScarce ? FailureKind::Memory : FailureKind::Internal;
+}
+
 ChildProcess::ChildProcess(const ChildSettings & settings)
   : m_Parent(getpid())
 {
@@ -73,7 +80,7 @@ ChildProcess::ChildProcess(const ChildSettings & settings)
   {
     this->Kill();
     this->Wait();
-    throw Failure(FailureKind::Internal,
+    throw Failure(KindOfStartError(error),
                   "Cannot start " + settings.arguments.front() + ": " + std::strerror(error) + ".");
   }
   const rlimit noCore{ 0, 0 };

@@ -163,7 +163,7 @@ public:
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0)
     {
-      Refuse(job.path, std::string("no process can be started: ") + std::strerror(errno), FailureKind::Internal);
+      Refuse(job.path, std::string("no process can be started: ") + std::strerror(errno), KindOfStartError(errno));
     }
     m_Socket = FileDescriptor(ends[0]);
     const FileDescriptor itsEnd(ends[1]);

@@ -33,6 +33,21 @@ struct PageSurface
   std::optional<double> volume; ///< ml
   std::optional<double> area;   ///< cm2
   std::optional<double> mean;   ///< of the scan inside the surface
+  bool isHidden = false;        ///< until a user shows the surface
+};
+
+/** A table of other numbers than volumes, areas and mean values. */
+struct PageTable
+{
+  struct Row
+  {
+    std::string name;
+    Colour colour{};
+    std::vector<std::string> cells; ///< one for each heading
+  };
+
+  std::vector<std::string> headings;
+  std::vector<Row> rows;
 };
 
 /** \class PageContent
@@ -42,11 +57,12 @@ struct PageContent
   std::string title;
   std::vector<std::string> facts; ///< lines about scan and method; a colon ends the name of a value
   std::vector<PageSurface> surfaces;
-  const Scan * scan = nullptr; ///< for slices; null: none
-  SliceBox box;                ///< of the scan
-  GreyWindow window;           ///< in which slices are shown first
-  std::string unit;            ///< of the scan's values: "HU"; empty if unknown
-  bool isOriented = true;      ///< whether sides of the patient are known; without, there are no letters
+  std::optional<PageTable> table; ///< in place of that of the surfaces
+  const Scan * scan = nullptr;    ///< for slices; null: none
+  SliceBox box;                   ///< of the scan
+  GreyWindow window;              ///< in which slices are shown first
+  std::string unit;               ///< of the scan's values: "HU"; empty if unknown
+  bool isOriented = true;         ///< whether sides of the patient are known; without, there are no letters
   std::vector<StillPicture> views;
   std::vector<StillPicture> slices;
   std::vector<Picture> turntable;         ///< views around the patient, from the front towards the patient's left

@@ -90,29 +90,43 @@ FiguresOf(const std::vector<StillPicture> & pictures, const std::string & what)
   return figures.empty() ? "" : "<div class=\"figures\">\n" + figures + "</div>\n";
 }
 
-std::string
-Cell(const std::optional<double> & number, int decimals)
+/** The table of the surfaces' volumes, areas and mean values. */
+PageTable
+MeasuresOf(const PageContent & content)
 {
-  return "<td class=\"number\">" + (number ? FormatFixed(*number, decimals) : std::string()) + "</td>";
-}
-
-/** The table of surfaces. */
-std::string
-TableOf(const PageContent & content)
-{
-  std::string rows;
+  const auto cell = [](const std::optional<double> & number) { return number ? FormatFixed(*number, 1) : ""; };
+  PageTable table{
+    { "volume, ml", "surface, cm\xc2\xb2", "mean value" + (content.unit.empty() ? "" : ", " + content.unit) }, {}
+  };
   for (const PageSurface & surface : content.surfaces)
   {
-    rows += "<tr><td><svg class=\"swatch\" viewBox=\"0 0 10 10\" aria-hidden=\"true\"><rect width=\"10\" height=\"10\" "
-            "rx=\"2\" fill=\"" +
-            HexOf(surface.scene.colour) + "\"/></svg></td><th scope=\"row\"><bdi>" + EscapeHtml(surface.scene.name) +
-            "</bdi></th>" + Cell(surface.volume, 1) + Cell(surface.area, 1) + Cell(surface.mean, 1) + "</tr>\n";
+    table.rows.push_back(
+      { surface.scene.name, surface.scene.colour, { cell(surface.volume), cell(surface.area), cell(surface.mean) } });
   }
-  const std::string unit = content.unit.empty() ? "" : ", " + EscapeHtml(content.unit);
-  return "<div class=\"wide\"><table>\n<thead><tr><th></th><th scope=\"col\">structure</th><th scope=\"col\" "
-         "class=\"number\">volume, ml</th>"
-         "<th scope=\"col\" class=\"number\">surface, cm\xc2\xb2</th><th scope=\"col\" class=\"number\">mean value" +
-         unit + "</th></tr></thead>\n<tbody>\n" + rows + "</tbody>\n</table></div>\n";
+  return table;
+}
+
+std::string
+WriteTable(const PageTable & table)
+{
+  std::string text = "<div class=\"wide\"><table>\n<thead><tr><th></th><th scope=\"col\">structure</th>";
+  for (const std::string & heading : table.headings)
+  {
+    text += "<th scope=\"col\" class=\"number\">" + EscapeHtml(heading) + "</th>";
+  }
+  text += "</tr></thead>\n<tbody>\n";
+  for (const PageTable::Row & row : table.rows)
+  {
+    text += "<tr><td><svg class=\"swatch\" viewBox=\"0 0 10 10\" aria-hidden=\"true\"><rect width=\"10\" height=\"10\" "
+            "rx=\"2\" fill=\"" +
+            HexOf(row.colour) + "\"/></svg></td><th scope=\"row\"><bdi>" + EscapeHtml(row.name) + "</bdi></th>";
+    for (const std::string & cell : row.cells)
+    {
+      text += "<td class=\"number\">" + EscapeHtml(cell) + "</td>";
+    }
+    text += "</tr>\n";
+  }
+  return text + "</tbody>\n</table></div>\n";
 }
 
 std::string
@@ -141,6 +155,10 @@ DescribeSurfaces(const PageContent & content)
     if (!surface.group.empty())
     {
       entry["group"] = surface.group;
+    }
+    if (surface.isHidden)
+    {
+      entry["hidden"] = true;
     }
     if (surface.volume)
     {
@@ -218,7 +236,7 @@ MakeFixedParts(const PageContent & content)
   constexpr int quality = 78;
   FixedParts parts;
   parts.pictures = FiguresOf(content.views, "view") + FiguresOf(content.slices, "slice");
-  parts.table = TableOf(content);
+  parts.table = WriteTable(content.table ? *content.table : MeasuresOf(content));
   for (std::size_t n = 0; n < content.turntable.size(); ++n)
   {
     parts.turntable += DataBlock("turn-" + std::to_string(n), JpegOf(content.turntable[n], quality, true));

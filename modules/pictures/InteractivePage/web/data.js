@@ -37,7 +37,7 @@ function makeOrgans() {
   const { origin, extent } = page.mesh;
   const box = { low: origin, high: origin.map((low, axis) => low + extent[axis]) };
   const none = { points: new Float32Array(0), normals: new Float32Array(0), triangles: new Uint32Array(0) };
-  return page.surfaces.map((surface, number) => ({ ...surface, ...none, number, box, visible: true, shown: surface.opacity }));
+  return page.surfaces.map((surface, number) => ({ ...surface, ...none, number, box, visible: !surface.hidden, shown: surface.opacity }));
 }
 
 /** Positions and triangles of all surfaces together. */

@@ -139,14 +139,19 @@ std::string
 VolumeFormatOf(const std::filesystem::path & path);
 
 /** \class DicomExamination
- * \brief What a DICOM scan says about its values and the region it shows. Both are words of the standard. */
+ * \brief What a DICOM scan says about its values, the region it shows, and the space it lies in. */
 struct DicomExamination
 {
   std::string bodyPart; ///< DICOM's term (0018,0015) in upper case: HEAD, ABDOMEN, ...; empty if unknown
   std::string units;    ///< of a PET's values (0054,1001): "Bq/ml", "g/ml", "counts", ...; empty if unknown
+
+  /** The UID (0020,0052) of the space of its positions; empty if unknown. To be compared, and neither shown nor
+   * written.
+   */
+  std::string frameOfReference;
 };
 
-/** Reads the first file of a scan; both texts are empty for other formats than DICOM. */
+/** Reads the first file of a scan; all texts are empty for other formats than DICOM. */
 DicomExamination
 ReadDicomExamination(const Scan & scan);
 

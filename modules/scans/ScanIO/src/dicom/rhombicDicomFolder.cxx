@@ -407,9 +407,11 @@ ReadDicomExamination(const Scan & scan)
   {
     return {};
   }
-  const auto header = ReadDicomHeader(scan.files.front(), { DicomTags::BodyPartExamined, DicomTags::Units });
+  const auto header = ReadDicomHeader(
+    scan.files.front(), { DicomTags::BodyPartExamined, DicomTags::Units, DicomTags::FrameOfReferenceUID });
   return header ? DicomExamination{ BodyPartOf(header->dataSet.GetText(DicomTags::BodyPartExamined)),
-                                    UnitsOf(header->dataSet.GetText(DicomTags::Units)) }
+                                    UnitsOf(header->dataSet.GetText(DicomTags::Units)),
+                                    header->dataSet.GetText(DicomTags::FrameOfReferenceUID) }
                 : DicomExamination();
 }
 

@@ -46,6 +46,7 @@ using DicomTag = std::uint32_t;
   VALUE(AcquisitionNumber, 0x00200012)                                                                                 \
   VALUE(ImagePositionPatient, 0x00200032)                                                                              \
   VALUE(ImageOrientationPatient, 0x00200037)                                                                           \
+  OTHER(FrameOfReferenceUID, 0x00200052)                                                                               \
   VALUE(TemporalPositionIdentifier, 0x00200100)                                                                        \
   VALUE(StackID, 0x00209056)                                                                                           \
   SEQUENCE(FrameContentSequence, 0x00209111)                                                                           \
