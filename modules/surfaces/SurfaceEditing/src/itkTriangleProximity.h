@@ -4,6 +4,13 @@
 #include "detail/itkPositionArithmetic.h"
 #include "itkTriangleTree.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <tuple>
+#include <utility>
+
 namespace itk
 {
 
@@ -12,10 +19,12 @@ namespace itk
  *
  * The triangle is cut into pieces. A piece is near if all its corners are near one triangle of the surface, because the
  * points within a distance of a triangle are a convex set. A piece is also near if its centre is nearer than the
- * distance by at least the distance from the centre to the farthest corner. Pieces are no longer cut when their longest
- * side is below a quarter of that of the triangle and of the nearest triangle of the surface: then the corners must be
- * near and the centre within 0.9 times the distance. So the answer yes is proven except between these points, no
- * farther than 0.1 of that side from one of these points. */
+ * distance by at least the distance from the centre to the farthest corner. Other pieces are cut along the border of
+ * the triangle of the surface that is nearest to their centre, seen along that triangle's normal: what lies over the
+ * triangle is then near it, or is cut further. Pieces are no longer cut when their longest side is below a quarter of
+ * that of the triangle and of the nearest triangle of the surface: then the corners must be near and the centre within
+ * 0.9 times the distance. So the answer yes is proven except between these points, no farther than 0.1 of that side
+ * from one of these points. */
 class TriangleProximity
 {
 public:
@@ -31,8 +40,9 @@ public:
   bool
   IsNearOneOf(const std::array<std::uint32_t, 3> & triangles) const
   {
+    const Piece whole(m_Triangle);
     return std::any_of(triangles.begin(), triangles.end(), [&](std::uint32_t triangle) {
-      return this->IsNearTriangle(m_Triangle, triangle);
+      return this->IsNearTriangle(whole, triangle);
     });
   }
 
@@ -41,29 +51,105 @@ public:
   bool
   IsNearSurface(const std::array<std::uint32_t, 3> & likely) const
   {
-    return this->IsNearOneOf(likely) || this->IsNear(m_Triangle, likely[0]);
+    return this->IsNearOneOf(likely) || this->IsNear(Piece(m_Triangle), likely[0]);
   }
 
 private:
   static constexpr double SmallestShareOfSide = 0.25; ///< smaller pieces are not cut
   static constexpr double NearForCentres = 0.9;       ///< relative to the distance
+  static constexpr double LeastInside = 0.0625;       ///< of centres, relative to the farthest corner's distance
+  static constexpr unsigned int ManyCorners = 8;      ///< a cut across pieces of more would leave too many
+
+  /** A convex part of the triangle. */
+  struct Piece
+  {
+    static constexpr unsigned int MostCorners = ManyCorners + 3; ///< after cuts along three sides
+
+    Piece() = default;
+
+    explicit Piece(const CornersType & triangle)
+      : size(3)
+    {
+      std::copy(triangle.begin(), triangle.end(), corners.begin());
+    }
+
+    const PositionType *
+    begin() const
+    {
+      return corners.data();
+    }
+
+    const PositionType *
+    end() const
+    {
+      return corners.data() + size;
+    }
+
+    void
+    Add(const PositionType & corner)
+    {
+      corners[size++] = corner;
+    }
+
+    PositionType
+    GetCentre() const
+    {
+      PositionType sum{};
+      for (const PositionType & corner : *this)
+      {
+        sum = rhombic::Add(sum, corner);
+      }
+      return Scaled(sum, 1.0 / size);
+    }
+
+    double
+    GetSquaredLongestSide() const
+    {
+      double longest = 0.0;
+      for (unsigned int n = 0; n < size; ++n)
+      {
+        longest = std::max(longest, SquaredDistance(corners[n], corners[(n + 1) % size]));
+      }
+      return longest;
+    }
+
+    std::array<PositionType, MostCorners> corners;
+    unsigned int size = 0;
+  };
+
+  /** The parts of a piece in front of a plane and behind it; a part may be empty. Each has at most one corner more than
+   * the piece. */
+  static std::pair<Piece, Piece>
+  Cut(const Piece & piece, const PositionType & point, const PositionType & normal)
+  {
+    std::pair<Piece, Piece> parts;
+    const auto heightOf = [&](const PositionType & corner) { return Dot(normal, Subtract(corner, point)); };
+    for (unsigned int n = 0; n < piece.size; ++n)
+    {
+      const PositionType & corner = piece.corners[n];
+      const PositionType & next = piece.corners[(n + 1) % piece.size];
+      const double height = heightOf(corner);
+      const double nextHeight = heightOf(next);
+      (height >= 0.0 ? parts.first : parts.second).Add(corner);
+      if ((height >= 0.0) != (nextHeight >= 0.0))
+      {
+        const PositionType between = Mix(corner, next, height / (height - nextHeight));
+        parts.first.Add(between);
+        parts.second.Add(between);
+      }
+    }
+    return parts;
+  }
 
   static double
   SquaredLongestSide(const CornersType & corners)
   {
-    const auto & [a, b, c] = corners;
-    return std::max({ SquaredDistance(a, b), SquaredDistance(b, c), SquaredDistance(c, a) });
-  }
-
-  static PositionType
-  Middle(const PositionType & a, const PositionType & b)
-  {
-    return { 0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2]) };
+    return Piece(corners).GetSquaredLongestSide();
   }
 
   /** Whether a piece is near one triangle of the surface. */
   bool
-  IsNearTriangle(const CornersType & piece, std::uint32_t triangle) const
+  IsNearTriangle(const Piece & piece, std::uint32_t triangle) const
   {
     return std::all_of(piece.begin(), piece.end(), [&](const PositionType & corner) {
       return this->SquaredDistanceTo(triangle, corner) <= m_Distance * m_Distance;
@@ -72,16 +158,18 @@ private:
 
   /** Whether a piece is near the surface; \a likely is a triangle of the surface that may be near. */
   bool
-  IsNear(const CornersType & piece, std::uint32_t likely) const
+  IsNear(const Piece & piece, std::uint32_t likely) const
   {
     if (this->IsNearTriangle(piece, likely))
     {
       return true;
     }
-    const auto & [a, b, c] = piece;
-    const PositionType centre{ (a[0] + b[0] + c[0]) / 3.0, (a[1] + b[1] + c[1]) / 3.0, (a[2] + b[2] + c[2]) / 3.0 };
-    const double squaredRadius =
-      std::max({ SquaredDistance(a, centre), SquaredDistance(b, centre), SquaredDistance(c, centre) });
+    const PositionType centre = piece.GetCentre();
+    double squaredRadius = 0.0;
+    for (const PositionType & corner : piece)
+    {
+      squaredRadius = std::max(squaredRadius, SquaredDistance(corner, centre));
+    }
     const double enough = std::max(0.0, m_Distance - std::sqrt(squaredRadius)); // so that the farthest corner is near
     const Nearest nearest = this->FindNearest(centre, likely, enough * enough);
     if (nearest.triangle == TriangleTree::None)
@@ -96,11 +184,75 @@ private:
     {
       return this->AreCornersNear(piece);
     }
-    const PositionType ab = Middle(a, b);
-    const PositionType bc = Middle(b, c);
-    const PositionType ca = Middle(c, a);
-    return this->IsNear({ ab, bc, ca }, nearest.triangle) && this->IsNear({ a, ab, ca }, nearest.triangle) &&
-           this->IsNear({ ab, b, bc }, nearest.triangle) && this->IsNear({ ca, bc, c }, nearest.triangle);
+    if (piece.size > ManyCorners)
+    {
+      return this->IsNearBesideDiagonal(piece, nearest.triangle);
+    }
+    const std::optional<bool> isNear = this->IsNearInParts(piece, centre, std::sqrt(squaredRadius), nearest.triangle);
+    return isNear ? *isNear : this->IsNearInHalves(piece, centre, nearest.triangle);
+  }
+
+  /** Cuts a piece along the sides of a triangle of the surface. Nothing if its centre does not lie over the triangle,
+   * or so close to a side that the cut would leave most of the piece, or if the part over the triangle is not near it.
+   */
+  std::optional<bool>
+  IsNearInParts(const Piece & piece, const PositionType & centre, double radius, std::uint32_t triangle) const
+  {
+    const CornersType corners = CornersOf(m_Surface.GetSurface(), m_Surface.GetSurface().GetTriangles()[triangle]);
+    const PositionType normal = AreaVector(corners);
+    std::array<PositionType, 3> inwards; // perpendicular to each side
+    for (unsigned int side = 0; side < 3; ++side)
+    {
+      inwards[side] = Cross(normal, Subtract(corners[(side + 1) % 3], corners[side]));
+      if (!(Dot(inwards[side], Subtract(centre, corners[side])) > LeastInside * radius * Length(inwards[side])))
+      {
+        return std::nullopt;
+      }
+    }
+    Piece over = piece;
+    std::array<Piece, 3> beside;
+    for (unsigned int side = 0; side < 3; ++side)
+    {
+      std::tie(over, beside[side]) = Cut(over, corners[side], inwards[side]);
+    }
+    if (!this->IsNearTriangle(over, triangle))
+    {
+      return std::nullopt;
+    }
+    return std::all_of(
+      beside.begin(), beside.end(), [&](const Piece & part) { return part.size == 0 || this->IsNear(part, triangle); });
+  }
+
+  /** Cuts a piece through its centre, across the direction of its farthest corner. */
+  bool
+  IsNearInHalves(const Piece & piece, const PositionType & centre, std::uint32_t likely) const
+  {
+    const PositionType & farthest =
+      *std::max_element(piece.begin(), piece.end(), [&](const PositionType & one, const PositionType & other) {
+        return SquaredDistance(one, centre) < SquaredDistance(other, centre);
+      });
+    const auto [front, back] = Cut(piece, centre, Subtract(farthest, centre));
+    return this->IsNear(front, likely) && this->IsNear(back, likely);
+  }
+
+  /** Cuts a piece between two opposite corners, which leaves fewer corners to each part. */
+  bool
+  IsNearBesideDiagonal(const Piece & piece, std::uint32_t likely) const
+  {
+    std::pair<Piece, Piece> parts;
+    const unsigned int opposite = piece.size / 2;
+    for (unsigned int n = 0; n < piece.size; ++n)
+    {
+      if (n <= opposite)
+      {
+        parts.first.Add(piece.corners[n]);
+      }
+      if (n == 0 || n >= opposite)
+      {
+        parts.second.Add(piece.corners[n]);
+      }
+    }
+    return this->IsNear(parts.first, likely) && this->IsNear(parts.second, likely);
   }
 
   struct Nearest
@@ -126,16 +278,16 @@ private:
   }
 
   bool
-  IsSmall(const CornersType & piece, std::uint32_t nearest) const
+  IsSmall(const Piece & piece, std::uint32_t nearest) const
   {
     const double side =
       std::min(m_SquaredSide,
                SquaredLongestSide(CornersOf(m_Surface.GetSurface(), m_Surface.GetSurface().GetTriangles()[nearest])));
-    return SquaredLongestSide(piece) <= SmallestShareOfSide * SmallestShareOfSide * side;
+    return piece.GetSquaredLongestSide() <= SmallestShareOfSide * SmallestShareOfSide * side;
   }
 
   bool
-  AreCornersNear(const CornersType & piece) const
+  AreCornersNear(const Piece & piece) const
   {
     const double limit = m_Distance * m_Distance;
     return std::all_of(piece.begin(), piece.end(), [&](const PositionType & corner) {
