@@ -329,7 +329,7 @@ RegionAround(const itk::ImageRegion<3> & one, const itk::ImageRegion<3> & other)
 std::vector<std::optional<double>>
 FindNoiseFloors(const ComparedSide & side)
 {
-  constexpr itk::SizeValueType measured = 2000; // triangles
+  constexpr itk::SizeValueType measured = 500; // triangles
   std::vector<std::optional<double>> floors(side.labels.size());
   for (std::size_t label = 0; label < side.surfaces.size() && side.map; ++label)
   {
