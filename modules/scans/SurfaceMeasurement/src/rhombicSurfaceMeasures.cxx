@@ -2,6 +2,7 @@
 
 #include "rhombicForEachBlock.h"
 
+#include "detail/itkForEachLoadedPart.h"
 #include "itkTriangleSurfaceInterior.h"
 #include "itkTriangleSurfaceMeasures.h"
 
@@ -99,7 +100,7 @@ FindShares(const itk::FCCImage<TPixel> & lattice, const itk::ImageBase<3> * grid
 /** Number of sites for which \a isInside(value); sites at the border count by their share in the grid's voxels. */
 template <typename TPixel, typename TInside>
 double
-CountSites(const itk::FCCImage<TPixel> & lattice, const itk::ImageBase<3> * grid, const TInside & isInside)
+CountSites(itk::FCCImage<TPixel> & lattice, const itk::ImageBase<3> * grid, const TInside & isInside)
 {
   const auto & region = lattice.GetLargestPossibleRegion();
   const auto & size = region.GetSize();
@@ -107,8 +108,10 @@ CountSites(const itk::FCCImage<TPixel> & lattice, const itk::ImageBase<3> * grid
                                                    FindShares(lattice, grid, 1),
                                                    FindShares(lattice, grid, 2) };
   std::vector<double> planes(size[2]);
-  ForEachInBlocks(size[2], 1, [&](std::size_t k) {
-    const TPixel * value = lattice.GetBufferPointer() + k * size[1] * size[0];
+  const auto countPlane = [&](itk::SizeValueType k) {
+    itk::Index<3> start = region.GetIndex();
+    start[2] += static_cast<itk::IndexValueType>(k);
+    const TPixel * value = lattice.GetBufferPointer() + lattice.ComputeOffset(start);
     for (itk::SizeValueType j = 0; j < size[1]; ++j)
     {
       const auto row = region.GetIndex(1) + static_cast<itk::IndexValueType>(j);
@@ -121,6 +124,9 @@ CountSites(const itk::FCCImage<TPixel> & lattice, const itk::ImageBase<3> * grid
       }
       planes[k] += sum * shares[1][j] * shares[2][k];
     }
+  };
+  ForEachLoadedPart(lattice, [&](itk::SizeValueType begin, itk::SizeValueType end) {
+    ForEachInBlocks(end - begin, 1, [&](std::size_t n) { countPlane(begin + n); });
   });
   return std::accumulate(planes.begin(), planes.end(), 0.0);
 }

@@ -7,6 +7,8 @@
 #include "rhombicVolumeRefusal.h"
 #include "rhombicWording.h"
 
+#include "detail/itkForEachLoadedPart.h"
+
 #include <fstream>
 
 namespace fs = std::filesystem;
@@ -65,7 +67,7 @@ VerifyImage(const TImage * image, const fs::path & path)
 {
   FailToWriteIf(image == nullptr, path, "there is no image, but a null pointer; give an image that is filled");
   const auto & region = image->GetBufferedRegion();
-  FailToWriteIf(region != image->GetLargestPossibleRegion(),
+  FailToWriteIf(region != image->GetLargestPossibleRegion() && image->GetSource() == nullptr,
                 path,
                 "not all samples of the image are in its buffer; update the whole of it first");
   FailToWriteIf(region.GetNumberOfPixels() == 0, path, "the image has no samples; give one of at least one sample");
@@ -108,7 +110,7 @@ template <typename TPixel>
 std::string
 MakeHeader(const itk::FCCImage<TPixel> & image)
 {
-  const auto & region = image.GetBufferedRegion();
+  const auto & region = image.GetLargestPossibleRegion();
   const auto & start = region.GetIndex();
   const auto & size = region.GetSize();
   const auto & spacing = image.GetSpacing();
@@ -237,10 +239,16 @@ StageFCCImage(const FCCVolume & volume, const fs::path & path, StagedFiles & sta
     [&](const auto & image) {
       using PixelType = typename std::decay_t<decltype(*image)>::PixelType;
       const std::string header = MakeHeader(*image);
-      const std::size_t bytes = image->GetBufferedRegion().GetNumberOfPixels() * sizeof(PixelType);
+      const std::size_t bytes = image->GetLargestPossibleRegion().GetNumberOfPixels() * sizeof(PixelType);
       std::ofstream stream(file.GetTemporaryPath(), std::ios::binary | std::ios::trunc);
       stream << header;
-      stream.write(reinterpret_cast<const char *>(image->GetBufferPointer()), static_cast<std::streamsize>(bytes));
+      const std::size_t bytesOfPlane = bytes / image->GetLargestPossibleRegion().GetSize(2);
+      itk::ForEachLoadedPart(*image, [&](std::size_t begin, std::size_t end) {
+        itk::Index<3> start = image->GetLargestPossibleRegion().GetIndex();
+        start[2] += static_cast<itk::IndexValueType>(begin);
+        stream.write(reinterpret_cast<const char *>(image->GetBufferPointer() + image->ComputeOffset(start)),
+                     static_cast<std::streamsize>((end - begin) * bytesOfPlane));
+      });
       stream.close();
       FailToWriteIf(!stream, path, "writing failed; is the disk full?");
       size = header.size() + bytes;

@@ -125,6 +125,11 @@ ReadVolumePixels(StoredType type,
                  const VolumeGeometry & geometry,
                  const VoxelSource & source);
 
+/** One frame as an image over the mapped file (see IsMapped()); nothing where its voxels can't be used as the file
+ * holds them, or the system does not map it. */
+std::optional<ScanImage>
+MapVoxels(const StoredVolume & volume, std::uintmax_t frame);
+
 /** Reads \a count voxels into \a buffer, as they are stored, or as floats when they are scaled. Throws what \a source
  * throws. */
 void

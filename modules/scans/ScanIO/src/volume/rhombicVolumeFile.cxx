@@ -187,6 +187,36 @@ ReadStoredVoxels(const StoredVolume & volume, std::uintmax_t frame, const ScanRe
   return image;
 }
 
+/** What to do with a file that is larger than the memory and can't be mapped. */
+std::string
+AdviseMapping(const StoredVolume & volume, const fs::path & path)
+{
+  const bool isNIfTI = volume.voxels.isDeflated && VolumeExtension(path) == ".nii.gz";
+  return isNIfTI ? "unpack it by gunzip -k " + path.filename().string() + ", as a raw file need not fit"
+                 : "write it as raw .mhd, .nhdr or .nii in little-endian bytes, without a scaling, which need not fit";
+}
+
+/** Reads the voxels of one frame, or maps its file when they would take more than half of the memory allowed. */
+ScanImage
+ReadOrMapVoxels(const StoredVolume & volume,
+                std::uintmax_t frame,
+                const fs::path & path,
+                const ScanReadOptions & options)
+{
+  const std::uintmax_t group = volume.areFramesInterleaved ? volume.numberOfFrames * SizeOf(volume.type) : 0;
+  const std::uintmax_t bytes =
+    group + MemoryOfPixels(volume.type, volume.scaling.has_value(), volume.geometry.GetNumberOfVoxels());
+  if (bytes > MemoryAllowance(options.maximumMemory) / 2)
+  {
+    if (const auto mapped = MapVoxels(volume, frame))
+    {
+      return *mapped;
+    }
+  }
+  RequireMemory(bytes, options.maximumMemory, "Reading " + path.string(), AdviseMapping(volume, path));
+  return ReadStoredVoxels(volume, frame, options);
+}
+
 /** Reads and checks the header. Describes in \a scan what the result can't hold. */
 StoredVolume
 ReadHeader(const fs::path & path, const ScanReadOptions & options, Scan & scan)
@@ -400,16 +430,15 @@ OpenVolumeFile(const fs::path & path, const ScanReadOptions & options)
   UnreadScan file;
   file.scan = scan;
   file.readVoxels = [=](Scan & read) {
-    const std::uintmax_t group = volume.areFramesInterleaved ? volume.numberOfFrames * SizeOf(volume.type) : 0;
-    RequireMemory(group + MemoryOfPixels(volume.type, volume.scaling.has_value(), volume.geometry.GetNumberOfVoxels()),
-                  options.maximumMemory,
-                  "Reading " + path.string());
     if (isLayered)
     {
+      RequireMemory(MemoryOfPixels(volume.type, false, volume.geometry.GetNumberOfVoxels()),
+                    options.maximumMemory,
+                    "Reading " + path.string());
       ReadLayers(volume, segments, path, options, read);
       return;
     }
-    read.image = ReadStoredVoxels(volume, read.frame, options);
+    read.image = ReadOrMapVoxels(volume, read.frame, path, options);
     if (const std::size_t count = ReplaceNotFinite(read.image, path); count > 0)
     {
       read.notes.push_back(path.string() + " holds " +
