@@ -28,6 +28,7 @@ struct ScanSource
   std::filesystem::path path; ///< a scan, or a lattice volume that WriteFCCImage() wrote
   ScanReadOptions read;
   LatticeSettings lattice; ///< for lattice volumes, only the denoising has an effect
+  bool streams = false;    ///< whether a lattice that does not fit is made in slabs, see ScanToLattice()
   /** Called with the facts of the headers, before the voxels of a scan are read; may be empty, and may throw. */
   std::function<void(const Scan & scan)> check;
 
@@ -77,6 +78,7 @@ struct LoadedSource
   std::optional<Scan> scan;                 ///< none when the source is a lattice volume or a label map
   std::optional<TableRemoval> tableRemoval; ///< objects that were removed from the scan
   FCCVolume lattice;                        ///< null without requests
+  LatticeStream stream;                     ///< of a lattice that is made in slabs
   itk::ImageBase<3>::Pointer grid;          ///< grid of the scan, without values; null for no or a slanted scan
   std::vector<SurfaceRequest> requests;     ///< with their isovalues
   std::optional<LabelMap> labels;

@@ -8,6 +8,7 @@
 #include "rhombicVoxelGrid.h"
 
 #include "itkFCCLattice.h"
+#include "itkProcessObject.h"
 #include "itkSeparableTaps.h"
 
 #include <array>
@@ -28,6 +29,13 @@ struct LatticeSettings
   bool nested = false; ///< takes every other sample of the scan instead, without interpolation; density 0.5
 };
 
+/** For a lattice that is made in slabs when the whole of it does not fit. */
+struct LatticeStream
+{
+  std::uintmax_t besides = 0;         ///< bytes that what is made of the lattice needs
+  itk::ProcessObject::Pointer source; ///< makes the slabs; null for a whole lattice
+};
+
 /** A denoising written as `none`, `gaussian:SIGMA` or `edges:SIGMA,EDGE`. Throws Failure(Usage). */
 Denoising
 ParseDenoising(const std::string & text);
@@ -43,9 +51,21 @@ CheckLatticeSettings(const LatticeSettings & settings);
  *
  * Throws Failure: Usage for settings out of range, for labels that overlap, for a nested lattice or edge-preserving
  * denoising of a slanted scan, and for a lattice of too many or no sites; Memory, before any work, with a density that
- * would fit; and those of DenoiseScan(). */
+ * would fit; and those of DenoiseScan().
+ *
+ * \param stream if not null, a lattice that does not fit is no failure: its buffer then holds as many planes as fit,
+ * and its source, which \a stream keeps, makes others when they are asked for (itk::ForEachLoadedPart(), and
+ * itk::FCCIsosurfaceFilter with the divisions of FindDivisions()). A note tells the number of slabs. Gaussian denoising
+ * needs the whole lattice. */
 FCCVolume
-ScanToLattice(const Scan & scan, const LatticeSettings & settings, const Events & events);
+ScanToLattice(const Scan & scan,
+              const LatticeSettings & settings,
+              const Events & events,
+              LatticeStream * stream = nullptr);
+
+/** In how many slabs a lattice is made, one after the other: 1 for one that is whole in its buffer. */
+unsigned int
+FindDivisions(const FCCVolume & lattice);
 
 /** Resamples a lattice volume onto a Cartesian grid (itk::FCCToCartesianImageFilter). Throws Failure(Usage) for a
  * spacing that makes no grid.

@@ -3,6 +3,7 @@
 #include "rhombicEnclosedParts.h"
 #include "rhombicFailure.h"
 #include "rhombicEvents.h"
+#include "rhombicScanToLattice.h"
 #include "rhombicWording.h"
 
 #include "itkFCCIsosurfaceFilter.h"
@@ -53,6 +54,7 @@ struct IsosurfaceExtraction
   const Events & events;
   const itk::ImageBase<3> * grid;
   bool computesNormals;
+  unsigned int divisions; ///< of the volume, see FindDivisions()
 
   /** One surface for each request, in their order; null for outermost parts. */
   Isosurfaces
@@ -134,6 +136,7 @@ struct IsosurfaceExtraction
     filter->SetMode(mode);
     filter->SetInsideIsBelow(insideIsBelow);
     filter->SetComputeNormals(computesNormals);
+    filter->SetNumberOfStreamDivisions(divisions);
     filter->Update();
     for (std::size_t n = 0; n < chosen.size(); ++n)
     {
@@ -167,7 +170,7 @@ LatticeToSurfaces(const FCCVolume & volume,
                     "The outermost parts of " + request.name + " are of values above the threshold, not below it.");
     }
   }
-  const IsosurfaceExtraction extraction{ mode, events, grid, computesNormals };
+  const IsosurfaceExtraction extraction{ mode, events, grid, computesNormals, FindDivisions(volume) };
   Isosurfaces extracted = extraction.Extract(volume, requests);
   if (extracted.undefinedSamples > 0)
   {

@@ -404,7 +404,9 @@ std::vector<MadeFile>
 MeshScan(const MeshScanSettings & settings, const Events & events, std::optional<SourceVolume> volume)
 {
   CheckOutputs(CheckMeshScan(settings), settings.source, settings.surfaces, InputsOf(settings.colourBy));
-  LoadedSource loaded = LoadSource(settings.source, settings.surfaces, std::move(volume), events);
+  ScanSource source = settings.source;
+  source.streams = true;
+  LoadedSource loaded = LoadSource(source, settings.surfaces, std::move(volume), events);
   CheckNumberOfSurfaces(loaded, settings);
   Report sourceReport = ReportSource(loaded, settings.source);
   const SurfaceMaking making{ settings.source, settings.surfaces, settings.finish, SurfaceUse::Files, events };

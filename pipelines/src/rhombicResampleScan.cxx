@@ -15,7 +15,8 @@ Report
 StageLattice(const Scan & scan, const ResampleScanSettings & settings, const Events & events, StagedFiles & staged)
 {
   const LatticeSettings & lattice = settings.source.lattice;
-  const FCCVolume volume = ScanToLattice(OrderAlongPatient(scan, lattice.maximumMemory), lattice, events);
+  LatticeStream stream;
+  const FCCVolume volume = ScanToLattice(OrderAlongPatient(scan, lattice.maximumMemory), lattice, events, &stream);
   events.Progress("writing", 0.0);
   StageFCCImage(volume, settings.volume, staged);
   return { { "scan", ReportWithoutNames(scan, settings.source.path) },

@@ -4,11 +4,15 @@
 #include "rhombicAtomicFile.h"
 #include "rhombicFailure.h"
 #include "rhombicLabelDoubts.h"
+#include "rhombicMappedVoxels.h"
 #include "rhombicEvents.h"
+#include "rhombicForEachBlock.h"
 #include "rhombicPatientAxes.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -138,6 +142,65 @@ ResolveRequests(const std::vector<SurfaceRequest> & requests, const TVolume & vo
   return ResolveIsovalues(requests, ComputeIntensities(volume, needsOtsu));
 }
 
+/** How many triangles a surface of area 1, in faces of voxels, has on the default lattice. */
+double
+TrianglesPerFace(itk::FCCIsosurfaceMode mode)
+{
+  using Mode = itk::FCCIsosurfaceMode;
+  switch (mode)
+  {
+    case Mode::Lean:
+      return 1.9;
+    case Mode::Octahedra:
+      return 5.7;
+    case Mode::Parallelepipeds:
+      return 2.8;
+    default:
+      return 7.0;
+  }
+}
+
+/** The memory that surfaces need until they are written, estimated from a part of the scan's slices, and, for each but
+ * the first, the two bits for each sample of their extraction.
+ * \param density relative to the default */
+std::uintmax_t
+EstimateMeshBytes(const Scan & scan,
+                  const std::vector<SurfaceRequest> & requests,
+                  itk::FCCIsosurfaceMode mode,
+                  double density)
+{
+  constexpr double bytesOfTriangle = 56.0; // while a mesh is untangled or written
+  constexpr std::size_t mostSlices = 64;
+  const auto & size = GeometryOf(scan.image).GetLargestPossibleRegion().GetSize();
+  const std::size_t step = (size[2] + mostSlices - 1) / mostSlices;
+  std::vector<std::size_t> crossings((size[2] + step - 1) / step);
+  const auto count = [&](const auto & image) {
+    for (const SurfaceRequest & request : requests)
+    {
+      ForEachInBlocks(crossings.size(), 1, [&, isovalue = *request.isovalue](std::size_t n) {
+        const auto * value = image->GetBufferPointer() + n * step * size[1] * size[0];
+        const auto isInside = [isovalue](auto sample) { return static_cast<double>(sample) >= isovalue; };
+        for (std::size_t row = 0; row + 1 < size[1]; ++row, ++value)
+        {
+          for (std::size_t column = 0; column + 1 < size[0]; ++column, ++value)
+          {
+            const bool inside = isInside(*value);
+            crossings[n] += (inside != isInside(value[1]) ? 1 : 0) + (inside != isInside(value[size[0]]) ? 1 : 0);
+          }
+        }
+      });
+    }
+  };
+  std::visit(count, scan.image);
+  // A plane cuts as many edges along two axes, on average of its directions, as it has faces of voxels.
+  const double faces = static_cast<double>(std::accumulate(crossings.begin(), crossings.end(), std::size_t(0))) *
+                       static_cast<double>(step);
+  const double triangles = faces * TrianglesPerFace(mode) * std::pow(density, 2.0 / 3.0);
+  const double bits =
+    0.25 * itk::FCCLattice::DefaultDensity * density * static_cast<double>(size[0] * size[1] * size[2]);
+  return static_cast<std::uintmax_t>(triangles * bytesOfTriangle + bits * static_cast<double>(requests.size() - 1));
+}
+
 LoadedSource
 PrepareLattice(FCCVolume volume, const ScanSource & source, const SurfaceSelection & selection, const Events & events)
 {
@@ -204,7 +267,13 @@ PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & sel
   loaded.requests = ResolveRequests(requests, scan.image);
   NoteThinBone(scan, loaded.requests, events);
   const Scan ordered = OrderAlongPatient(scan, source.lattice.maximumMemory);
-  loaded.lattice = ScanToLattice(ordered, source.lattice, events);
+  const bool areAllParts = std::all_of(loaded.requests.begin(), loaded.requests.end(), [](const auto & request) {
+    return request.parts == SurfaceRequest::Parts::All; // others are found in the whole lattice
+  });
+  loaded.stream.besides = EstimateMeshBytes(
+    ordered, loaded.requests, selection.mode, source.lattice.density / itk::FCCLattice::DefaultDensity);
+  loaded.lattice =
+    ScanToLattice(ordered, source.lattice, events, source.streams && areAllParts ? &loaded.stream : nullptr);
   if (!IsSlanted(ordered))
   {
     loaded.grid = itk::ImageBase<3>::New();
@@ -254,6 +323,12 @@ LoadVolume(const ScanSource & source, const Events & events)
   }
   Scan scan = ReadScan(source, events);
   events.Note(DescribeGrid(scan));
+  if (IsMapped(scan.image))
+  {
+    events.Note(
+      "the voxels stay in their file and are read where they are needed, as they would take more than half of "
+      "the memory that is allowed");
+  }
   NoteAll(scan.notes, events);
   NoteAll(scan.fileNotes, events);
   return scan;
@@ -263,6 +338,7 @@ void
 LoadedSource::DropVolumes()
 {
   lattice = FCCVolume();
+  stream = {};
   labels.reset();
 #ifdef __GLIBC__
   malloc_trim(0);

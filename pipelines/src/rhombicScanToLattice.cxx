@@ -1,6 +1,7 @@
 #include "rhombicScanToLattice.h"
 
 #include "rhombicFailure.h"
+#include "rhombicMappedVoxels.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicEvents.h"
 #include "rhombicWording.h"
@@ -17,6 +18,20 @@ namespace rhombic
 namespace
 {
 
+/** Bytes of the scan that the limit counts: those in memory, if the limit is given and not a share of what is free. */
+std::uintmax_t
+CountScanBytes(const Scan & scan, const LatticeSettings & settings)
+{
+  return settings.maximumMemory == 0 || IsMapped(scan.image)
+           ? 0
+           : std::visit(
+               [](const auto & image) {
+                 using Pixel = typename std::decay_t<decltype(*image)>::PixelType;
+                 return image->GetLargestPossibleRegion().GetNumberOfPixels() * sizeof(Pixel);
+               },
+               scan.image);
+}
+
 /** Throws Failure(Memory) for a lattice that does not fit, naming a density that would. */
 template <typename TPixel>
 void
@@ -24,9 +39,7 @@ RequireLatticeMemory(const itk::FCCImage<TPixel> & lattice, const Scan & scan, c
 {
   const unsigned int copies = settings.denoising.kind == Denoising::Kind::Gaussian ? 2 : 1;
   const std::uintmax_t bytes = lattice.GetLargestPossibleRegion().GetNumberOfPixels() * sizeof(TPixel) * copies;
-  const bool isGiven = settings.maximumMemory > 0;
-  const std::uintmax_t scanBytes =
-    isGiven ? GeometryOf(scan.image).GetLargestPossibleRegion().GetNumberOfPixels() * sizeof(TPixel) : 0;
+  const std::uintmax_t scanBytes = CountScanBytes(scan, settings);
   const std::uintmax_t allowed = MemoryAllowance(settings.maximumMemory);
   const double fitting = allowed > scanBytes ? 0.95 * settings.density * static_cast<double>(allowed - scanBytes) /
                                                  static_cast<double>(bytes)
@@ -36,6 +49,51 @@ RequireLatticeMemory(const itk::FCCImage<TPixel> & lattice, const Scan & scan, c
                 "The lattice",
                 fitting >= 0.001 ? "use a coarser lattice with --density " + FormatNumber(fitting, 2)
                                  : "crop the scan");
+}
+
+/** How many planes of a lattice are made at a time when the whole of it does not fit: all that do fit; 0 when the whole
+ * fits, or not even a slab does. Throws Failure(Memory) when it is \a besides that does not fit. */
+template <typename TPixel>
+itk::SizeValueType
+FindPlanesOfSlab(const itk::FCCImage<TPixel> & lattice,
+                 const Scan & scan,
+                 const LatticeSettings & settings,
+                 std::uintmax_t besides)
+{
+  constexpr itk::SizeValueType around = 20;             // further planes of a slab
+  constexpr std::uintmax_t perSite = 2 * sizeof(float); // of extraction, see itk::FCCIsosurfaceFilter
+  const itk::ImageRegion<3> & region = lattice.GetLargestPossibleRegion();
+  const std::uintmax_t sites = region.GetNumberOfPixels();
+  const std::uintmax_t scanBytes = CountScanBytes(scan, settings);
+  const std::uintmax_t allowed = MemoryAllowance(settings.maximumMemory);
+  if (sites * sizeof(TPixel) + scanBytes <= allowed)
+  {
+    return 0;
+  }
+  const std::uintmax_t plane = region.GetSize(0) * region.GetSize(1) * (sizeof(TPixel) + perSite);
+  const std::uintmax_t least = scanBytes + sites / 4 + around * plane; // two bits for each sample
+  if (besides > 0 && least + plane <= allowed)
+  {
+    RequireMemory(least + plane + besides,
+                  settings.maximumMemory,
+                  "A slab of the lattice and the surface, which takes some " + DescribeBytes(besides) + ",",
+                  "use a coarser lattice with --density");
+  }
+  const std::uintmax_t planes = allowed > least + besides ? (allowed - least - besides) / plane : 0;
+  return std::min<itk::SizeValueType>(planes, region.GetSize(2));
+}
+
+/** Makes the first \a planes of a filter's lattice, and leaves the others for later. */
+template <typename TFilter>
+void
+BeginStream(TFilter & filter, itk::SizeValueType planes)
+{
+  auto & lattice = *filter.GetOutput();
+  itk::ImageRegion<3> region = lattice.GetLargestPossibleRegion();
+  region.SetSize(2, planes);
+  lattice.SetRequestedRegion(region);
+  lattice.PropagateRequestedRegion();
+  lattice.UpdateOutputData();
 }
 
 /** Throws Failure(Usage) for a lattice or grid that the filter refuses, naming the options. */
@@ -83,13 +141,35 @@ CheckSlantedScan(const LatticeSettings & settings)
 /** Runs a filter from a scan's image to the lattice. */
 template <typename TFilter>
 FCCVolume
-Resample(TFilter & filter, const Scan & scan, const LatticeSettings & settings, const Events & events)
+Resample(TFilter & filter,
+         const Scan & scan,
+         const LatticeSettings & settings,
+         const Events & events,
+         LatticeStream * stream)
 {
-  ObserveProgress(filter, "resampling", events);
   CheckSize(filter);
-  RequireLatticeMemory(*filter.GetOutput(), scan, settings);
-  filter.Update();
-  const auto lattice = TakeOutput(filter);
+  const bool mayStream = stream != nullptr && settings.denoising.kind != Denoising::Kind::Gaussian;
+  const auto planes = mayStream ? FindPlanesOfSlab(*filter.GetOutput(), scan, settings, stream->besides) : 0;
+  typename TFilter::OutputImageType::Pointer lattice = filter.GetOutput();
+  if (planes > 0)
+  {
+    stream->source = &filter;
+    BeginStream(filter, planes);
+    events.Note("the lattice of " +
+                DescribeBytes(lattice->GetLargestPossibleRegion().GetNumberOfPixels() *
+                              sizeof(typename TFilter::OutputImageType::PixelType)) +
+                " is more than the " + DescribeBytes(MemoryAllowance(settings.maximumMemory)) +
+                " that are allowed; it is made in " + Count(FindDivisions(lattice), "slab") +
+                ", again for each pass over it" +
+                (stream->besides > 0 ? "; the surface will take some " + DescribeBytes(stream->besides) : ""));
+  }
+  else
+  {
+    ObserveProgress(filter, "resampling", events);
+    RequireLatticeMemory(*lattice, scan, settings);
+    filter.Update();
+    lattice->DisconnectPipeline();
+  }
   events.Note("lattice: " + FormatProduct(lattice->GetLargestPossibleRegion().GetSize()) + " sites, spacing " +
               FormatProduct(lattice->GetSpacing()) + " mm");
   return lattice;
@@ -98,13 +178,17 @@ Resample(TFilter & filter, const Scan & scan, const LatticeSettings & settings, 
 /** \param image the scan's image, or that image denoised */
 template <typename TImage>
 FCCVolume
-ResampleImage(const TImage & image, const Scan & scan, const LatticeSettings & settings, const Events & events)
+ResampleImage(const TImage & image,
+              const Scan & scan,
+              const LatticeSettings & settings,
+              const Events & events,
+              LatticeStream * stream)
 {
   if (settings.nested)
   {
     const auto filter = itk::CartesianToNestedFCCImageFilter<TImage>::New();
     filter->SetInput(&image);
-    return Resample(*filter, scan, settings, events);
+    return Resample(*filter, scan, settings, events, stream);
   }
   const auto filter = itk::CartesianToFCCImageFilter<TImage>::New();
   filter->SetInput(&image);
@@ -112,7 +196,7 @@ ResampleImage(const TImage & image, const Scan & scan, const LatticeSettings & s
   filter->SetOutputSpacing(settings.spacing.data());
   filter->SetKernel(settings.kernel);
   filter->SetScan(scan);
-  return Resample(*filter, scan, settings, events);
+  return Resample(*filter, scan, settings, events, stream);
 }
 
 } // namespace
@@ -171,7 +255,7 @@ CheckLatticeSettings(const LatticeSettings & settings)
 }
 
 FCCVolume
-ScanToLattice(const Scan & scan, const LatticeSettings & settings, const Events & events)
+ScanToLattice(const Scan & scan, const LatticeSettings & settings, const Events & events, LatticeStream * stream)
 {
   CheckLatticeSettings(settings);
   if (!scan.furtherLayers.empty())
@@ -186,7 +270,7 @@ ScanToLattice(const Scan & scan, const LatticeSettings & settings, const Events 
   }
   const ScanImage image = DenoiseScan(scan.image, settings.denoising, settings.maximumMemory, events);
   const FCCVolume volume =
-    std::visit([&](const auto & input) { return ResampleImage(*input, scan, settings, events); }, image);
+    std::visit([&](const auto & input) { return ResampleImage(*input, scan, settings, events, stream); }, image);
   if (settings.denoising.kind == Denoising::Kind::Gaussian)
   {
     events.Note("smoothed by a Gaussian of " + FormatNumber(settings.denoising.sigma) +
@@ -195,6 +279,17 @@ ScanToLattice(const Scan & scan, const LatticeSettings & settings, const Events 
   return settings.denoising.kind == Denoising::Kind::Gaussian
            ? DenoiseLattice(volume, settings.denoising, settings.maximumMemory, events)
            : volume;
+}
+
+unsigned int
+FindDivisions(const FCCVolume & lattice)
+{
+  const auto find = [](const auto & image) {
+    const itk::SizeValueType depth = image->GetLargestPossibleRegion().GetSize(2);
+    const itk::SizeValueType planes = std::max<itk::SizeValueType>(1, image->GetBufferedRegion().GetSize(2));
+    return static_cast<unsigned int>((depth + planes - 1) / planes);
+  };
+  return std::visit(find, lattice);
 }
 
 ScanImage
