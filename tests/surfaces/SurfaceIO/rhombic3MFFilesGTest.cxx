@@ -5,6 +5,7 @@
 #include "itkTriangleSurfaceMeasures.h"
 
 #include <Model/COM/NMR_DLLInterfaces.h>
+#include <chrono>
 #include <zlib.h>
 
 namespace
@@ -243,9 +244,77 @@ TEST_F(ThreeMFFiles, DamagedAndOtherFilesAreRefused)
     doubling += "<object id='" + std::to_string(n) + "'><components>" + half + half + "</components></object>";
   }
   refused(Package("", doubling, "<item objectid='39'/>"), "put together of too many others");
+  std::string many = object;
+  for (int n = 0; n < 100'001; ++n)
+  {
+    many += "<base/>";
+  }
+  refused(Package("", many, item), "more than 100000 elements beside its meshes");
   refused(StoredZip({ { "_rels/.rels", relationships },
                       { "3D/Any.model", "<!DOCTYPE model [<!ENTITY a 'aaaaaaaa'>]><model>&a;</model>" } }),
           "is no XML");
+}
+
+/** What makes a parser of XML slow or large is refused within the time that a usual file of that size takes. */
+TEST_F(ThreeMFFiles, PartsThatWearAParserOutAreRefused)
+{
+  const auto repeated = [](const std::string & text, std::size_t times) {
+    std::string all;
+    for (std::size_t n = 0; n < times; ++n)
+    {
+      all += text;
+    }
+    return all;
+  };
+  const std::size_t many = 1 << 20;
+  std::string newNames;
+  for (std::size_t n = 0; n < many / 4; ++n)
+  {
+    newNames += "<vertex a" + std::to_string(n) + "=''/>";
+  }
+  const std::vector<std::pair<std::string, std::string>> parts{
+    { "a long value", "<model a='" + std::string(32 * many, 'a') + "'/>" },
+    { "a long name", "<" + std::string(16 * many, 'a') + "/>" },
+    { "a long comment", "<!--" + std::string(16 * many, 'a') + "--><model/>" },
+    { "elements in elements", "<model>" + repeated("<vertex>", many / 4) },
+    { "ever new names", "<model>" + newNames },
+  };
+  for (const auto & [what, text] : parts)
+  {
+    for (const bool isModel : { true, false })
+    {
+      const std::string & relations = isModel ? relationships : text;
+      WriteBytes(m_Path, StoredZip({ { "_rels/.rels", relations }, { "3D/Any.model", isModel ? text : "" } }));
+      const auto begin = std::chrono::steady_clock::now();
+      EXPECT_EQ(KindOf([this] { ReadSurfaces(m_Path); }, "names or values that are too long"),
+                rhombic::FailureKind::Unreadable)
+        << what;
+      EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10)) << what;
+    }
+  }
+}
+
+/** Entities that stand for ten others each, nine times over: refused before one of them is read. */
+TEST_F(ThreeMFFiles, EntitiesDoNotExpand)
+{
+  std::string text = "<!DOCTYPE model [<!ENTITY a0 'aaaaaaaaaa'>";
+  for (int n = 1; n < 10; ++n)
+  {
+    text += "<!ENTITY a" + std::to_string(n) + " '";
+    for (int times = 0; times < 10; ++times)
+    {
+      text += "&a" + std::to_string(n - 1) + ";";
+    }
+    text += "'>";
+  }
+  text += "]><model>&a9;</model>";
+  for (const bool isModel : { true, false })
+  {
+    WriteBytes(
+      m_Path,
+      StoredZip({ { "_rels/.rels", isModel ? relationships : text }, { "3D/Any.model", isModel ? text : "" } }));
+    EXPECT_EQ(KindOf([this] { ReadSurfaces(m_Path); }, "is no XML from line 1 on"), rhombic::FailureKind::Unreadable);
+  }
 }
 
 /** A part of zeros that is a thousand times smaller when it is packed. */

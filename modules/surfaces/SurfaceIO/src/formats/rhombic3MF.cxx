@@ -5,6 +5,9 @@
 #include "itkMatrix.h"
 
 #include <charconv>
+#include <cstddef>
+#include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <limits>
 #include <map>
@@ -119,6 +122,60 @@ AppendMesh(const SceneSurface & item, SurfaceFileSpace space, const std::filesys
   zip.Append("</triangles>\n</mesh>\n");
 }
 
+/** \class ParserMemory
+ * \brief The memory of one parser. It ends what makes a parser slow or large: very long names and values, which expat
+ * scans again with each block, elements in elements without end, and ever new names. */
+class ParserMemory
+{
+public:
+  static constexpr std::size_t Most = std::size_t{ 1 } << 22; // the parser of a usual file takes 100 kB
+
+  /** The functions by which expat takes memory in this thread, from a new count on. */
+  static const XML_Memory_Handling_Suite *
+  Begin()
+  {
+    static const XML_Memory_Handling_Suite suite{ [](std::size_t size) { return Resize(nullptr, size); },
+                                                  Resize,
+                                                  [](void * block) { Resize(block, 0); } };
+    s_Taken = 0;
+    return &suite;
+  }
+
+private:
+  static constexpr std::size_t Header = alignof(std::max_align_t); // holds the size of the block
+
+  /** As std::realloc, but a size of 0 always frees. */
+  static void *
+  Resize(void * block, std::size_t size)
+  {
+    auto * const old = block != nullptr ? static_cast<char *>(block) - Header : nullptr;
+    std::size_t oldSize = 0;
+    if (old != nullptr)
+    {
+      std::memcpy(&oldSize, old, sizeof(oldSize));
+    }
+    if (size == 0)
+    {
+      s_Taken -= oldSize;
+      std::free(old);
+      return nullptr;
+    }
+    const bool isTooMuch = size > Most || s_Taken - oldSize > Most - size;
+    auto * const made = isTooMuch ? nullptr : static_cast<char *>(std::realloc(old, Header + size));
+    if (made == nullptr)
+    {
+      return nullptr;
+    }
+    s_Taken += size - oldSize;
+    std::memcpy(made, &size, sizeof(size));
+    return made + Header;
+  }
+
+  static thread_local std::size_t s_Taken;
+};
+
+thread_local std::size_t ParserMemory::s_Taken = 0;
+
 using Attributes = const XML_Char **;
 
 /** The attribute's text; empty if there is none. */
@@ -138,7 +195,8 @@ AttributeOf(Attributes attributes, std::string_view name)
 /** \class XMLPart
  * \brief Parses a part of the archive, element by element, by expat. Elements of 3MF's core and of relationships have
  * their names without a prefix, whatever prefix the part gives to the namespace; others have names that nothing is
- * called. Parts with a document type are refused, so nothing expands. */
+ * called. Parts with a document type are refused, so nothing expands. Parts whose parser would need much memory are
+ * refused, too. */
 class XMLPart
 {
 public:
@@ -147,8 +205,8 @@ public:
   void
   Parse(const InputFile & file, const ZipReader & zip, const ZipPart & part)
   {
-    const std::unique_ptr<XML_ParserStruct, void (*)(XML_Parser)> parser(XML_ParserCreateNS(nullptr, Separator),
-                                                                         XML_ParserFree);
+    const std::unique_ptr<XML_ParserStruct, void (*)(XML_Parser)> parser(
+      XML_ParserCreate_MM(nullptr, ParserMemory::Begin(), Separator), XML_ParserFree);
     m_Parser = parser.get();
     XML_SetUserData(m_Parser, this);
     XML_SetElementHandler(m_Parser, &XMLPart::OnBegin, &XMLPart::OnEnd);
@@ -160,6 +218,10 @@ public:
       if (m_Failure)
       {
         std::rethrow_exception(m_Failure);
+      }
+      if (status != XML_STATUS_OK && XML_GetErrorCode(m_Parser) == XML_ERROR_NO_MEMORY)
+      {
+        file.RefuseDamaged("its part " + part.name + " has names or values that are too long, or too many names");
       }
       if (status != XML_STATUS_OK)
       {
@@ -216,7 +278,7 @@ private:
   static std::string_view
   OwnName(std::string_view name)
   {
-    const std::size_t separator = name.rfind(Separator);
+    const std::size_t separator = name.rfind(*Separator);
     const std::string_view space = name.substr(0, separator);
     const bool isOwn = separator == name.npos || space == CoreNamespace || space == RelationsNamespace;
     return isOwn ? name.substr(separator + 1) : name;
@@ -253,7 +315,7 @@ private:
     XML_StopParser(static_cast<XMLPart *>(self)->m_Parser, XML_FALSE);
   }
 
-  static constexpr XML_Char Separator = ' '; // between namespace and name
+  static constexpr const XML_Char * Separator = " "; // between namespace and name
   static constexpr std::size_t MostNamespaces = 1000;
 
   XML_Parser m_Parser = nullptr;
