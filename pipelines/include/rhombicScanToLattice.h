@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 
 namespace rhombic
@@ -32,8 +33,9 @@ struct LatticeSettings
 /** For a lattice that is made in slabs when the whole of it does not fit. */
 struct LatticeStream
 {
-  std::uintmax_t besides = 0;         ///< bytes that what is made of the lattice needs
-  itk::ProcessObject::Pointer source; ///< makes the slabs; null for a whole lattice
+  std::function<std::uintmax_t()> findBesides; ///< bytes that what is made of the lattice needs; may be empty
+  std::uintmax_t besides = 0;                  ///< the same, once the whole lattice was found not to fit
+  itk::ProcessObject::Pointer source;          ///< makes the slabs; null for a whole lattice
 };
 
 /** A denoising written as `none`, `gaussian:SIGMA` or `edges:SIGMA,EDGE`. Throws Failure(Usage). */

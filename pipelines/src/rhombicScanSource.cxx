@@ -270,10 +270,13 @@ PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & sel
   const bool areAllParts = std::all_of(loaded.requests.begin(), loaded.requests.end(), [](const auto & request) {
     return request.parts == SurfaceRequest::Parts::All; // others are found in the whole lattice
   });
-  loaded.stream.besides = EstimateMeshBytes(
-    ordered, loaded.requests, selection.mode, source.lattice.density / itk::FCCLattice::DefaultDensity);
+  loaded.stream.findBesides = [&] {
+    const double density = source.lattice.density / itk::FCCLattice::DefaultDensity;
+    return EstimateMeshBytes(ordered, loaded.requests, selection.mode, density);
+  };
   loaded.lattice =
     ScanToLattice(ordered, source.lattice, events, source.streams && areAllParts ? &loaded.stream : nullptr);
+  loaded.stream.findBesides = nullptr; // it refers to what ends here
   if (!IsSlanted(ordered))
   {
     loaded.grid = itk::ImageBase<3>::New();

@@ -52,13 +52,13 @@ RequireLatticeMemory(const itk::FCCImage<TPixel> & lattice, const Scan & scan, c
 }
 
 /** How many planes of a lattice are made at a time when the whole of it does not fit: all that do fit; 0 when the whole
- * fits, or not even a slab does. Throws Failure(Memory) when it is \a besides that does not fit. */
+ * fits, or not even a slab does. Throws Failure(Memory) when it is what is made of the lattice that does not fit. */
 template <typename TPixel>
 itk::SizeValueType
 FindPlanesOfSlab(const itk::FCCImage<TPixel> & lattice,
                  const Scan & scan,
                  const LatticeSettings & settings,
-                 std::uintmax_t besides)
+                 LatticeStream & stream)
 {
   constexpr itk::SizeValueType around = 20;             // further planes of a slab
   constexpr std::uintmax_t perSite = 2 * sizeof(float); // of extraction, see itk::FCCIsosurfaceFilter
@@ -71,6 +71,8 @@ FindPlanesOfSlab(const itk::FCCImage<TPixel> & lattice,
     return 0;
   }
   const std::uintmax_t plane = region.GetSize(0) * region.GetSize(1) * (sizeof(TPixel) + perSite);
+  stream.besides = stream.findBesides ? stream.findBesides() : 0;
+  const std::uintmax_t besides = stream.besides;
   const std::uintmax_t least = scanBytes + sites / 4 + around * plane; // two bits for each sample
   if (besides > 0 && least + plane <= allowed)
   {
@@ -149,7 +151,7 @@ Resample(TFilter & filter,
 {
   CheckSize(filter);
   const bool mayStream = stream != nullptr && settings.denoising.kind != Denoising::Kind::Gaussian;
-  const auto planes = mayStream ? FindPlanesOfSlab(*filter.GetOutput(), scan, settings, stream->besides) : 0;
+  const auto planes = mayStream ? FindPlanesOfSlab(*filter.GetOutput(), scan, settings, *stream) : 0;
   typename TFilter::OutputImageType::Pointer lattice = filter.GetOutput();
   if (planes > 0)
   {

@@ -74,7 +74,8 @@ TEST_F(ChildProcesses, HaveNeitherOpenFilesNorHandlersOfTheProgram)
 
 TEST_F(ChildProcesses, AreLimitedInMemory)
 {
-  ChildSettings settings = this->Shell("head -c 100000000 /dev/zero | tail -c 100000000 >/dev/null && echo done");
+  ChildSettings settings = this->Shell("while [ $(ulimit -d) = unlimited ]; do :; done; head -c 100000000 /dev/zero | "
+                                       "tail -c 100000000 >/dev/null && echo done");
   settings.memory = 20u << 20;
   ChildProcess child(settings);
   child.Wait();

@@ -378,7 +378,7 @@ TEST(InteractivePage, ASmallPageSaysWhatIsReduced)
   const Scan scan = MakeRamp(0.0);
   PageContent content = MakeContent(&scan);
   const PageWeight whole = MakeInteractivePage(content, {}).weight;
-  EXPECT_EQ(whole.surfaceError, 0.2);
+  EXPECT_EQ(whole.surfaceError, 0.1);
   EXPECT_EQ(whole.measuredError, 0.0) << "the spheres are too bent for fewer triangles within 0.2 mm";
   EXPECT_EQ(whole.notes.size(), 2u);
   content.largestSize = 1000;

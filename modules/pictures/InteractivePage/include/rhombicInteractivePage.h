@@ -103,7 +103,7 @@ struct MadePage
  * and surfaces that can be turned with WebGL2. Its Content-Security-Policy forbids every request to a network.
  *
  * Surfaces are simplified to a quarter of their triangles, or to as many as there is room for in
- * PageContent::largestSize, but no part of them is moved farther than 0.2 mm for the quarter, nor than 3.2 mm for the
+ * PageContent::largestSize, but no part of them is moved farther than 0.1 mm for the quarter, nor than 3.2 mm for the
  * room; slices are resampled to at most 256 x 256 x 256 samples along the patient's axes, in fewer grey levels where
  * surfaces would have too little room. Values of points are interpolated at the points of the simplified surface, and
  * have 255 steps from the scale's lower to its upper end; surfaces with values do not share walls, so that each has its

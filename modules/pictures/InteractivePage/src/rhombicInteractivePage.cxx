@@ -34,7 +34,7 @@ struct SliceCoding
 constexpr SliceCoding SliceCodings[] = { { 1, 1, 0.25 }, { 2, 1, 0.1 }, { 4, 1, 0.05 }, { 4, 2, 0.02 }, { 4, 4, 0.0 } };
 
 constexpr double ShareOfTriangles = 0.25; // more are hardly seen
-constexpr double ErrorForShare = 0.2;     // mm
+constexpr double ErrorForShare = 0.1;     // mm
 constexpr double LargestError = 3.2;      // mm
 constexpr std::size_t FewestTriangles = 100;
 constexpr double BytesOfTriangle = 3.4; // in base64; surfaces with many triangles need 3.3
