@@ -133,6 +133,7 @@ SceneOf(const CompareLabelsSettings & settings,
     {
       surface.surface = label.secondSurface;
       scene.drawnAsLines.push_back(surface);
+      scene.drawnAsLines.back().name = RowOf(label).name;
     }
     if (label.firstSurface != nullptr)
     {
