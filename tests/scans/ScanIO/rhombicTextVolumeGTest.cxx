@@ -2,6 +2,7 @@
 #include "rhombicLabelMap.h"
 #include "rhombicTextHeader.h"
 #include "rhombicStoredVolume.h"
+#include "rhombicMappedVoxels.h"
 #include "rhombicScanTest.h"
 
 #include <map>
@@ -389,8 +390,12 @@ TEST_F(TextVolume, MemoryIsLimited)
 {
   ScanReadOptions options;
   options.maximumMemory = 7;
-  EXPECT_EQ(KindOfReading(this->WriteNRRD(Raw + "space: LPS\n" + Directions), "maximumMemory", options),
+  const std::string placed = "space: LPS\n" + Directions;
+  EXPECT_EQ(KindOfReading(this->WriteNRRD(Bare + placed + "encoding: gzip\n", Gzipped("01234567")), "raw", options),
             FailureKind::Memory);
+  const auto scan = ReadScan(this->WriteNRRD(Raw + placed), options);
+  EXPECT_TRUE(rhombic::IsMapped(scan.image)) << "raw voxels stay in their file";
+  EXPECT_EQ(TextOf(scan), TextOf(ReadScan(this->WriteNRRD(Raw + placed))));
 }
 
 /** Any header gives a description or a Failure. */
