@@ -1,3 +1,4 @@
+#include "rhombicAtomicFile.h"
 #include "rhombicNIfTITestFile.h"
 #include "rhombicLabelMap.h"
 #include "rhombicTextHeader.h"
@@ -396,6 +397,21 @@ TEST_F(TextVolume, MemoryIsLimited)
   const auto scan = ReadScan(this->WriteNRRD(Raw + placed), options);
   EXPECT_TRUE(rhombic::IsMapped(scan.image)) << "raw voxels stay in their file";
   EXPECT_EQ(TextOf(scan), TextOf(ReadScan(this->WriteNRRD(Raw + placed))));
+}
+
+/** A program ends with a sentence when a file that is mapped loses its bytes. */
+TEST_F(TextVolume, MappedFilesThatBecomeShorterAreUnreadable)
+{
+  ScanReadOptions options;
+  options.maximumMemory = 7;
+  const fs::path path = this->WriteNRRD(Raw + "space: LPS\n" + Directions);
+  const auto use = [&] {
+    rhombic::RemoveTemporaryFilesOnSignals();
+    const auto scan = ReadScan(path, options);
+    fs::resize_file(path, 0);
+    std::exit(TextOf(scan).empty() ? 1 : 0);
+  };
+  EXPECT_EXIT(use(), testing::ExitedWithCode(4), "rhombic: An input file became shorter.*try again");
 }
 
 /** Any header gives a description or a Failure. */

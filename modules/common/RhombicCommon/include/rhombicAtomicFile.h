@@ -88,8 +88,9 @@ private:
 
 /** Makes SIGINT, SIGTERM and SIGHUP remove the temporary files of all AtomicFiles before they end the process as usual.
  * Signals that are ignored, as SIGHUP under nohup, stay ignored. SIGXFSZ is ignored, so that a file beyond the
- * process's size limit becomes an error of its writer. For programs only, as signal handlers belong to the whole
- * process. */
+ * process's size limit becomes an error of its writer. SIGBUS, which a mapped file causes that has become shorter, ends
+ * the process with a sentence on standard error, the exit code of FailureKind::Unreadable, and without temporary files.
+ * For programs only, as signal handlers belong to the whole process. */
 void
 RemoveTemporaryFilesOnSignals();
 

@@ -122,8 +122,9 @@ CreateLocked(const fs::path & path)
   return -1;
 }
 
-extern "C" void
-RemoveTemporaryFiles(int signal)
+/** May be called by a signal handler. */
+void
+UnlinkTemporaryFiles()
 {
   for (const auto & entry : temporaryFiles)
   {
@@ -132,6 +133,24 @@ RemoveTemporaryFiles(int signal)
       unlink(path);
     }
   }
+}
+
+/** A mapped file has no bytes at an address where it had some. */
+extern "C" void
+EndWithoutInput(int)
+{
+  constexpr char sentence[] =
+    "rhombic: An input file became shorter or could not be read any more, while it was used; check the file, and "
+    "the disk or network that it is on, and try again.\n";
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, sentence, sizeof sentence - 1);
+  UnlinkTemporaryFiles();
+  _exit(static_cast<int>(FailureKind::Unreadable));
+}
+
+extern "C" void
+RemoveTemporaryFiles(int signal)
+{
+  UnlinkTemporaryFiles();
   std::signal(signal, SIG_DFL);
   raise(signal);
 }
@@ -273,6 +292,7 @@ RemoveTemporaryFilesOnSignals()
     }
   }
   std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGBUS, EndWithoutInput);
 }
 
 } // namespace rhombic
