@@ -111,7 +111,7 @@ def defect_of(code, text, files, usual, is_silenced):
         return "" if files == usual_files else f"ended well, but {sorted(set(files.items()) ^ set(usual_files.items()))[:3]}"
     if code == 127 and "error while loading shared libraries" in text:
         return ""  # before the program begins
-    if code not in DOCUMENTED and "nstall" not in text:
+    if code not in DOCUMENTED and "nstall" not in text and "Cannot start" not in text:  # as where /dev/null can't be opened
         return f"exit code {code}"
     if not text and not is_silenced:
         return f"exit code {code} without a sentence"

@@ -39,6 +39,7 @@ struct PageSurface
 /** A table of other numbers than volumes, areas and mean values. */
 struct PageTable
 {
+  /** A line of the table. */
   struct Row
   {
     std::string name;
