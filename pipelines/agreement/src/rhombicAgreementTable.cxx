@@ -181,6 +181,7 @@ const Column Columns[] = {
   { "deepmind_nsd", FindVoxelMetric<&VoxelMetrics::normalizedDice>, true, HasVoxelMetrics },
 };
 
+/** The columns of a table, which always has the same ones for the same settings. */
 std::vector<Column>
 ColumnsFor(const CompareLabelsSettings & settings)
 {
