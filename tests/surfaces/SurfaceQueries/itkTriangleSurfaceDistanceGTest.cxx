@@ -66,6 +66,35 @@ TEST(TriangleSurfaceDistance, MaximumIsThatOfBruteForceAtTheSamePlaces)
   }
 }
 
+/** Surfaces that cross, touch and lie apart, far and near, smooth and edged. */
+TEST(TriangleSurfaceDistance, WhatIsAssumedAtCentresIsNearWhatIsMeasured)
+{
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> place(-6.0, 6.0);
+  std::uniform_real_distribution<float> noise(-0.02f, 0.02f);
+  for (int trial = 0; trial < 12; ++trial)
+  {
+    const auto one = MakeSphere(10.0, 5, { place(random), place(random), place(random) });
+    const auto two = trial % 2 == 0 ? MakeSphere(8.0, 5) : itk::example::MakeTorus(9.0, 3.0, 96);
+    for (auto & point : two->GetPoints())
+    {
+      point[0] += noise(random);
+    }
+    TriangleTree tree(*two);
+    itk::TriangleSurfaceDistanceSettings settings;
+    settings.mostBent = 0.1;
+    const auto measured = ComputeTriangleSurfaceDistance(*one, tree, settings);
+    settings.mostAssumed = 0.01;
+    const auto assumed = ComputeTriangleSurfaceDistance(*one, tree, settings);
+    EXPECT_NEAR(assumed.GetMean(), measured.GetMean(), 5e-4);
+    EXPECT_NEAR(assumed.GetMaximum(), measured.GetMaximum(), 2e-3);
+    for (const double percent : { 5.0, 50.0, 95.0 })
+    {
+      EXPECT_NEAR(assumed.FindPercentile(percent), measured.FindPercentile(percent), 2e-3) << percent;
+    }
+  }
+}
+
 TEST(TriangleSurfaceDistance, LargeTrianglesAreLookedAtInside)
 {
   const auto plate = Surface::New();

@@ -16,6 +16,7 @@ constexpr double MostBent = 0.1;     // mm
 constexpr double LongestSide = 6.0;  // mm
 constexpr double MostParts = 1e6;    // of a surface, because of the longest side alone, or some more
 constexpr double ShortestSide = 0.1; // mm
+constexpr double MostAssumed = 0.01; // mm; what is assumed is far nearer to the truth
 
 /** A surface that is compared with another one. */
 struct Side
@@ -76,6 +77,7 @@ ComputeTriangleSurfaceAgreement(const TriangleSurface & first, const TriangleSur
   settings.longestSide = std::max(LongestSide, std::sqrt(std::max(areaOfFirst, areaOfSecond) / MostParts));
   settings.mostBent = MostBent;
   settings.shortestSide = tolerance > 0.0 ? std::min(ShortestSide, tolerance / 4.0) : ShortestSide;
+  settings.mostAssumed = MostAssumed;
   Side one(first);
   Side two(second);
   one.toOther = ComputeTriangleSurfaceDistance(first, two.tree, settings);

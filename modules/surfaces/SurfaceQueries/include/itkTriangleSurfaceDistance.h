@@ -18,6 +18,10 @@ struct TriangleSurfaceDistanceSettings
   /** In mm. A triangle is halved where the distance at its centre differs by more from the mean of its corners. */
   double mostBent = std::numeric_limits<double>::infinity();
   double shortestSide = 0.1; ///< in mm; a triangle without a longer side is not halved because of mostBent
+  /** In mm. The distance at a centre is computed from the distances and their gradients at the corners, not measured,
+   * where the gradients agree, the distance bends by less and is not the largest. Saves two of three queries where both
+   * surfaces are smooth. */
+  double mostAssumed = 0.0;
   /** Of a surface with more triangles, so many at regular intervals are measured. */
   SizeValueType mostTriangles = std::numeric_limits<SizeValueType>::max();
 };

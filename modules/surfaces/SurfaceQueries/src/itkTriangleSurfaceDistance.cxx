@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace itk
@@ -22,8 +23,16 @@ Area(const CornersType & corners)
   return Length(AreaVector(corners)) / 2.0;
 }
 
-/** Distances of points that are mostly close to the points before: the triangle nearest to the last point bounds the
- * search. */
+/** The distance of a position from the other surface, in mm, and the gradient of the distance there: a unit vector away
+ * from the nearest point, or 0 on the surface. */
+struct Measured
+{
+  float distance = 0.0f;
+  std::array<float, 3> gradient{};
+};
+
+/** Measures positions that are mostly close to the positions before: the triangle nearest to the last position bounds
+ * the search. */
 class Distances
 {
 public:
@@ -31,8 +40,8 @@ public:
     : m_Other(other)
   {}
 
-  float
-  Of(const PositionType & position)
+  Measured
+  At(const PositionType & position)
   {
     double bound = std::numeric_limits<double>::infinity();
     if (m_Nearest != TriangleTree::None)
@@ -42,13 +51,50 @@ public:
     const auto closest = m_Other.FindClosestPoint(position, bound);
     m_Nearest = closest.triangle != TriangleTree::None ? closest.triangle : m_Nearest;
     const double distance = std::sqrt(closest.squaredDistance);
-    return distance > Rounding ? static_cast<float>(distance) : 0.0f;
+    if (!(distance > Rounding))
+    {
+      return {};
+    }
+    const PositionType gradient = Scaled(Subtract(position, closest.point), 1.0 / distance);
+    return { static_cast<float>(distance),
+             { static_cast<float>(gradient[0]), static_cast<float>(gradient[1]), static_cast<float>(gradient[2]) } };
   }
 
 private:
   const TriangleTree & m_Other;
   std::uint32_t m_Nearest = TriangleTree::None;
 };
+
+/** The distance at the centre of a triangle by a quadratic function with the distances and gradients at its corners.
+ * No value where the function bends by more than \a mostBent from the mean of the corners, or the gradients differ by
+ * more than a quarter of a right angle: where the corners are nearest to different parts of the other surface.
+ *
+ * At a corner x with gradient g, a quadratic function f with the second derivative H has f(c) = f(x) + g (c - x) +
+ * (c - x) H (c - x) / 2 at the centre c, and f(x) = f(c) + f'(c) (x - c) + (c - x) H (c - x) / 2. In the mean over
+ * the corners the term with f'(c) is 0, so that f(c) is the mean of f(x) + g (c - x) / 2. */
+std::optional<float>
+AssumeAtCentre(const CornersType & corners,
+               const PositionType & centre,
+               const std::array<Measured, 3> & measured,
+               double mostBent)
+{
+  constexpr double leastCosine = 0.92; // of a quarter of a right angle
+  double bend = 0.0;
+  double mean = 0.0;
+  for (unsigned int corner = 0; corner < 3; ++corner)
+  {
+    const auto & [distance, gradient] = measured[corner];
+    const auto & next = measured[(corner + 1) % 3].gradient;
+    if (!(gradient[0] * next[0] + gradient[1] * next[1] + gradient[2] * next[2] >= leastCosine))
+    {
+      return std::nullopt;
+    }
+    mean += distance / 3.0;
+    const PositionType toCentre = Subtract(centre, corners[corner]);
+    bend += (gradient[0] * toCentre[0] + gradient[1] * toCentre[1] + gradient[2] * toCentre[2]) / 6.0;
+  }
+  return std::abs(bend) <= mostBent ? std::optional(static_cast<float>(std::max(0.0, mean + bend))) : std::nullopt;
+}
 
 /** The share of a triangle's area on which a linear function is at most \a value.
  * \param corners the function at the corners */
@@ -72,8 +118,8 @@ ShareWithin(std::array<double, 3> corners, double value)
   return 1.0 - (high - value) * (high - value) / ((high - middle) * (high - low));
 }
 
-/** The distance of each point that every \a step-th triangle uses, in mm; 0 for the others. */
-std::vector<float>
+/** The distance of each point that every \a step-th triangle uses; 0 for the others. */
+std::vector<Measured>
 MeasurePoints(const TriangleSurface & surface, const TriangleTree & other, std::size_t step)
 {
   std::vector<char> isUsed(surface.GetNumberOfPoints(), step == 1);
@@ -84,14 +130,14 @@ MeasurePoints(const TriangleSurface & surface, const TriangleTree & other, std::
       isUsed[point] = 1;
     }
   }
-  std::vector<float> found(surface.GetNumberOfPoints());
+  std::vector<Measured> found(surface.GetNumberOfPoints());
   rhombic::ForEachBlock(found.size(), BlockSize, [&](std::size_t first, std::size_t last) {
     Distances distances(other);
     for (std::size_t point = first; point < last; ++point)
     {
       if (isUsed[point] && IsFinite(surface.GetPoints()[point]))
       {
-        found[point] = distances.Of(ToPosition(surface.GetPoints()[point]));
+        found[point] = distances.At(ToPosition(surface.GetPoints()[point]));
       }
     }
   });
@@ -132,13 +178,12 @@ public:
     , m_Settings(settings)
   {}
 
-  /** \param atCorners distances of the corners */
   void
-  AddTriangle(const CornersType & corners, const std::array<float, 3> & atCorners)
+  AddTriangle(const CornersType & corners, const std::array<Measured, 3> & atCorners)
   {
     for (unsigned int corner = 0; corner < 3; ++corner)
     {
-      this->Improve(corners[corner], atCorners[corner]);
+      this->Improve(corners[corner], atCorners[corner].distance);
     }
     this->Divide(corners, atCorners, MostHalvings);
   }
@@ -160,17 +205,26 @@ private:
     }
   }
 
-  float
+  Measured
   Measure(const PositionType & position)
   {
-    const float distance = m_Distances.Of(position);
-    this->Improve(position, distance);
-    return distance;
+    const Measured measured = m_Distances.At(position);
+    this->Improve(position, measured.distance);
+    return measured;
+  }
+
+  float
+  FindAtCentre(const CornersType & corners, const std::array<Measured, 3> & measured)
+  {
+    const PositionType centre = Scaled(Add(Add(corners[0], corners[1]), corners[2]), 1.0 / 3.0);
+    const auto assumed =
+      m_Settings.mostAssumed > 0.0 ? AssumeAtCentre(corners, centre, measured, m_Settings.mostAssumed) : std::nullopt;
+    return assumed && *assumed < maximum ? *assumed : this->Measure(centre).distance;
   }
 
   /** Halves a triangle across its longest side, as long as the settings ask for it. */
   void
-  Divide(const CornersType & corners, const std::array<float, 3> & distances, unsigned int halvings)
+  Divide(const CornersType & corners, const std::array<Measured, 3> & measured, unsigned int halvings)
   {
     std::array<double, 3> sides; // opposite to each corner
     for (unsigned int corner = 0; corner < 3; ++corner)
@@ -178,12 +232,13 @@ private:
       sides[corner] = Distance(corners[(corner + 1) % 3], corners[(corner + 2) % 3]);
     }
     const auto apex = static_cast<unsigned int>(std::max_element(sides.begin(), sides.end()) - sides.begin());
+    const std::array<float, 3> distances{ measured[0].distance, measured[1].distance, measured[2].distance };
     const bool isLong = sides[apex] > m_Settings.longestSide;
     float centre = 0.0f;
     bool isBent = false;
     if (!isLong || halvings == 0)
     {
-      centre = this->Measure(Scaled(Add(Add(corners[0], corners[1]), corners[2]), 1.0 / 3.0));
+      centre = this->FindAtCentre(corners, measured);
       isBent = sides[apex] > m_Settings.shortestSide &&
                std::abs(centre - (distances[0] + distances[1] + distances[2]) / 3.0f) > m_Settings.mostBent;
     }
@@ -195,11 +250,10 @@ private:
     const unsigned int left = (apex + 1) % 3;
     const unsigned int right = (apex + 2) % 3;
     const PositionType middle = Mix(corners[left], corners[right], 0.5);
-    const float atMiddle = this->Measure(middle);
+    const Measured atMiddle = this->Measure(middle);
+    this->Divide({ corners[apex], corners[left], middle }, { measured[apex], measured[left], atMiddle }, halvings - 1);
     this->Divide(
-      { corners[apex], corners[left], middle }, { distances[apex], distances[left], atMiddle }, halvings - 1);
-    this->Divide(
-      { corners[apex], middle, corners[right] }, { distances[apex], atMiddle, distances[right] }, halvings - 1);
+      { corners[apex], middle, corners[right] }, { measured[apex], atMiddle, measured[right] }, halvings - 1);
   }
 
   void
@@ -312,7 +366,7 @@ ComputeTriangleSurfaceDistance(const TriangleSurface & surface,
     return result;
   }
   const std::size_t step = triangles / settings.mostTriangles + (triangles % settings.mostTriangles != 0 ? 1 : 0);
-  const std::vector<float> atPoints = MeasurePoints(surface, other, step);
+  const std::vector<Measured> atPoints = MeasurePoints(surface, other, step);
   const std::size_t chosen = (triangles + step - 1) / step;
   std::vector<TriangleSurfaceDistance::Divider> blocks((chosen + BlockSize - 1) / BlockSize, { other, settings });
   rhombic::ForEachBlock(chosen, BlockSize, [&](std::size_t first, std::size_t last) {
@@ -373,7 +427,7 @@ ComputeTriangleSurfaceSignedDistances(const TriangleSurface & surface, const Tri
     for (std::size_t point = first; point < last; ++point)
     {
       const PositionType position = ToPosition(surface.GetPoints()[point]);
-      const float distance = distances.Of(position);
+      const float distance = distances.At(position).distance;
       found[point] = IsInsideTriangleSurface(other, position) ? -distance : distance;
     }
   });
