@@ -325,16 +325,16 @@ RegionAround(const itk::ImageRegion<3> & one, const itk::ImageRegion<3> & other)
   return region;
 }
 
-/** Mean distances in mm from the surfaces of a label map to those of their voxels, by the labels' numbers. */
+/** Mean distances in mm from the surfaces of labels of a map to those of their voxels, by the labels' numbers. */
 std::vector<std::optional<double>>
-FindNoiseFloors(const ComparedSide & side)
+FindNoiseFloors(const ComparedSide & side, const std::vector<std::size_t> & labels)
 {
   constexpr itk::SizeValueType measured = 500; // triangles
   std::vector<std::optional<double>> floors(side.labels.size());
-  for (std::size_t label = 0; label < side.surfaces.size() && side.map; ++label)
+  for (const std::size_t label : labels)
   {
     const auto moments = side.moments.find(side.labels[label].value);
-    if (side.surfaces[label] == nullptr || moments == side.moments.end())
+    if (moments == side.moments.end())
     {
       continue;
     }
@@ -342,19 +342,19 @@ FindNoiseFloors(const ComparedSide & side)
       *ExtractVoxelSurface(side.map->scan, side.labels[label].value, moments->second.region));
     itk::TriangleSurfaceDistanceSettings settings;
     settings.mostTriangles = measured;
-    floors[label] = ComputeTriangleSurfaceDistance(*side.surfaces[label], voxels, settings).GetMean();
+    floors[label] = ComputeTriangleSurfaceDistance(*side.GetSurface(label), voxels, settings).GetMean();
   }
   return floors;
 }
 
 /** Measures of the surface and the voxels of a label. */
 ComparedVolume
-MeasureVolume(const ComparedSide & side, const std::optional<std::size_t> & label)
+MeasureVolume(const ComparedSide & side, const std::optional<std::size_t> & label, const SurfacePointer & surface)
 {
   ComparedVolume volume;
   if (label)
   {
-    volume.millilitres = ComputeTriangleSurfaceVolume(*side.surfaces[*label]) / CubicMillimetresPerMl;
+    volume.millilitres = ComputeTriangleSurfaceVolume(*surface) / CubicMillimetresPerMl;
   }
   if (side.map)
   {
@@ -366,14 +366,14 @@ MeasureVolume(const ComparedSide & side, const std::optional<std::size_t> & labe
 
 /** The centroid of a label's voxels, or of the solid that the surface bounds. */
 PointType
-FindCentroid(const ComparedSide & side, std::size_t label)
+FindCentroid(const ComparedSide & side, std::size_t label, const SurfacePointer & surface)
 {
   const auto moments = side.moments.find(side.labels[label].value);
   if (moments != side.moments.end())
   {
     return moments->second.centroid;
   }
-  return PointType(MeasureSurface(*side.surfaces[label]).centroid.data());
+  return PointType(MeasureSurface(*surface).centroid.data());
 }
 
 /** \class Comparison
@@ -420,11 +420,12 @@ public:
   {
     this->CompareVoxels();
     const std::vector<std::optional<VoxelMetrics>> voxels = this->MeasureVoxels();
-    ExtractSide(m_Settings, ChosenOf(m_Pairs, &LabelPair::first), m_Events, m_First);
+    const std::vector<std::size_t> ofFirst = ChosenOf(m_Pairs, &LabelPair::first);
+    ExtractSide(m_Settings, ofFirst, m_Events, m_First);
     std::vector<std::optional<double>> noise(m_First.labels.size());
-    if (m_Settings.kind == ComparedKind::Labels && !m_Settings.takesVoxelSurfaces)
+    if (m_First.mesh)
     {
-      noise = FindNoiseFloors(m_First);
+      noise = FindNoiseFloors(m_First, ofFirst);
     }
     DropMap(m_First);
     ExtractSide(m_Settings, ChosenOf(m_Pairs, &LabelPair::second), m_Events, m_Second);
@@ -543,13 +544,14 @@ private:
     agreement.days = m_Settings.days;
     agreement.tolerance = FindTolerance(m_Settings.tolerances, pair);
     agreement.change = pair.change;
-    agreement.first = MeasureVolume(m_First, pair.first);
-    agreement.second = MeasureVolume(m_Second, pair.second);
+    const SurfacePointer first = pair.first ? m_First.GetSurface(*pair.first) : nullptr;
+    const SurfacePointer unmoved = pair.second ? m_Second.GetSurface(*pair.second) : nullptr;
+    const SurfacePointer second = pair.second ? BringToFirst(unmoved, m_Maps) : nullptr;
+    agreement.first = MeasureVolume(m_First, pair.first, first);
+    agreement.second = MeasureVolume(m_Second, pair.second, unmoved);
     const ComparedLabel & label = pair.first ? m_First.labels[*pair.first] : m_Second.labels[*pair.second];
     agreement.colour = label.colour;
     const bool keepsSurfaces = !m_Settings.page.empty();
-    const SurfacePointer first = pair.first ? m_First.surfaces[*pair.first] : nullptr;
-    const SurfacePointer second = pair.second ? BringToFirst(m_Second.surfaces[*pair.second], m_Maps) : nullptr;
     agreement.firstSurface = keepsSurfaces ? first : nullptr;
     agreement.secondSurface = keepsSurfaces ? second : nullptr;
     if (!pair.first || !pair.second)
@@ -567,8 +569,8 @@ private:
       agreement.iou = m_Overlap->GetIoU(inFirst, inSecond);
       this->NoteOutside(pair.name, inSecond);
     }
-    agreement.centroidShift =
-      FindCentroid(m_First, *pair.first).EuclideanDistanceTo(m_Maps.ToFirst(FindCentroid(m_Second, *pair.second)));
+    agreement.centroidShift = FindCentroid(m_First, *pair.first, first)
+                                .EuclideanDistanceTo(m_Maps.ToFirst(FindCentroid(m_Second, *pair.second, unmoved)));
     return agreement;
   }
 

@@ -1,7 +1,6 @@
 #include "rhombicComparedSide.h"
 
 #include "rhombicFailure.h"
-#include "rhombicLabelSurfaces.h"
 #include "rhombicSourceSurfaces.h"
 #include "rhombicSurfaceIO.h"
 #include "rhombicVoxelSurface.h"
@@ -171,9 +170,9 @@ ExtractSide(const CompareLabelsSettings & settings,
   {
     return;
   }
-  side.surfaces.resize(side.labels.size());
   if (settings.takesVoxelSurfaces)
   {
+    side.surfaces.resize(side.labels.size());
     for (const std::size_t label : chosen)
     {
       const int value = side.labels[label].value;
@@ -191,15 +190,20 @@ ExtractSide(const CompareLabelsSettings & settings,
       making.labels.push_back(std::to_string(label.value));
     }
   }
-  LabelMesh mesh = LabelsToWalls(*side.map, making, events);
-  ExtractSurfaces(mesh);
-  for (const std::size_t label : chosen)
+  side.mesh = LabelsToWalls(*side.map, making, events);
+}
+
+itk::TriangleSurface::ConstPointer
+ComparedSide::GetSurface(std::size_t label) const
+{
+  if (!mesh)
   {
-    const auto made = std::find_if(mesh.labels.begin(), mesh.labels.end(), [&](const LabelSurface & candidate) {
-      return candidate.value == side.labels[label].value;
-    });
-    side.surfaces[label] = made->scene.surface;
+    return surfaces[label];
   }
+  const auto made = std::find_if(mesh->labels.begin(), mesh->labels.end(), [&](const LabelSurface & candidate) {
+    return candidate.value == labels[label].value;
+  });
+  return ExtractSurface(*mesh, static_cast<std::size_t>(made - mesh->labels.begin())).GetPointer();
 }
 
 std::vector<itk::Point<double, 3>>

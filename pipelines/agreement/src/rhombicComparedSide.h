@@ -3,6 +3,7 @@
 
 #include "rhombicCompareLabels.h"
 #include "rhombicLabelOverlap.h"
+#include "rhombicLabelSurfaces.h"
 #include "rhombicLabelPairs.h"
 
 #include <map>
@@ -22,16 +23,22 @@ struct ComparedSide
   std::optional<LabelMap> map;                  ///< of labels and isosurfaces: 1 is inside
   std::map<std::int32_t, LabelMoments> moments; ///< of the map's labels
 
-  /** For isosurfaces and surfaces of files: a surface for each label. */
+  std::optional<LabelMesh> mesh; ///< of the map's labels
+
+  /** For isosurfaces, surfaces of files and voxels' surfaces: a surface for each label. */
   std::vector<itk::TriangleSurface::ConstPointer> surfaces;
+
+  /** The surface of a label, from surfaces or mesh. */
+  itk::TriangleSurface::ConstPointer
+  GetSurface(std::size_t label) const;
 };
 
 /** Reads a segmentation. \a second: B, else A. Throws Failure. */
 ComparedSide
 LoadSide(const CompareLabelsSettings & settings, bool isSecond, const Events & events);
 
-/** Makes the surfaces of some labels of a label map, by their numbers in ComparedSide::labels; the others' are null.
- * Does nothing for other segmentations. */
+/** Makes the mesh of a label map, or the surfaces of the voxels of some labels, by their numbers in
+ * ComparedSide::labels. Does nothing for other segmentations. */
 void
 ExtractSide(const CompareLabelsSettings & settings,
             const std::vector<std::size_t> & chosen,

@@ -111,8 +111,14 @@ LabelsToWalls(const LabelMap & map, const LabelSurfaceSettings & settings, const
 std::vector<Refinement>
 RefineWalls(LabelMesh & mesh, const SurfaceFinish & finish, double spacing, const Events & events);
 
-/** Sets the closed surface of each label, with normals: the triangles of its walls, in the order of the mesh. Touching
- * surfaces have the same points and, turned over, the same triangles on their common wall. */
+/** The closed surface of a label, with normals: the triangles of its walls, in the order of the mesh. Touching surfaces
+ * have the same points and, turned over, the same triangles on their common wall.
+ *
+ * \param label number in LabelMesh::labels */
+itk::TriangleSurface::Pointer
+ExtractSurface(const LabelMesh & mesh, std::size_t label);
+
+/** Sets the surface of each label (ExtractSurface()). */
 void
 ExtractSurfaces(LabelMesh & mesh);
 

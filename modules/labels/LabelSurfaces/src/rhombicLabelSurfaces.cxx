@@ -488,14 +488,20 @@ RefineWalls(LabelMesh & mesh, const SurfaceFinish & finish, double spacing, cons
   return refinements;
 }
 
+itk::TriangleSurface::Pointer
+ExtractSurface(const LabelMesh & mesh, std::size_t label)
+{
+  const itk::LabelWalls & walls = *mesh.walls[mesh.labels[label].layer];
+  const auto surface = walls.ExtractLabel(static_cast<itk::LabelWalls::LabelType>(label + 1));
+  SetNormals(*surface);
+  return surface;
+}
+
 void
 ExtractSurfaces(LabelMesh & mesh)
 {
-  ForEachOnThreads(mesh.labels.size(), [&](std::size_t n) {
-    const auto surface = mesh.walls[mesh.labels[n].layer]->ExtractLabel(static_cast<itk::LabelWalls::LabelType>(n + 1));
-    SetNormals(*surface);
-    mesh.labels[n].scene.surface = surface;
-  });
+  ForEachOnThreads(mesh.labels.size(),
+                   [&](std::size_t label) { mesh.labels[label].scene.surface = ExtractSurface(mesh, label); });
 }
 
 std::vector<itk::TriangleSurface::ConstPointer>
