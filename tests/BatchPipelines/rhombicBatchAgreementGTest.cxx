@@ -120,11 +120,18 @@ TEST(BatchAgreement, TwentyVariantsOfThePhantom)
   ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
   const auto rows = ReadRows(folder.Path() / "out/agreement.tsv");
   EXPECT_EQ(rows.size(), count * values.size());
+  double largestOfSpleen = 0.0; // HD95 in mm; its voxels stay, its wall moves a little, as those of other labels do
   for (const auto & row : rows)
   {
     if (row.at("label") == "label 17")
     {
       EXPECT_NEAR(std::stod(row.at("dice")), dice[std::stoul(row.at("case").substr(1))], 1e-9);
+    }
+    if (row.at("label") == "label 18" && row.at("status") == "compared")
+    {
+      const double distance = std::stod(row.at("hd95_mm"));
+      EXPECT_LT(distance, std::stod(row.at("noise_floor_mm")));
+      largestOfSpleen = std::max(largestOfSpleen, distance);
     }
   }
   for (const auto & row : ReadRows(folder.Path() / "out/agreement-statistics.tsv"))
@@ -155,7 +162,7 @@ TEST(BatchAgreement, TwentyVariantsOfThePhantom)
     if (isSpleen && row.at("measure") == "hd95_mm")
     {
       EXPECT_EQ(row.at("cases"), "18") << "a missing organ has no distance";
-      EXPECT_EQ(std::stod(row.at("largest")), 0.0);
+      EXPECT_EQ(std::stod(row.at("largest")), largestOfSpleen);
     }
   }
 
