@@ -505,6 +505,9 @@ TEST_F(CompareLabels, PartsAreFollowed)
     EXPECT_NE(text.find(words), std::string::npos) << words << " in " << text;
   }
 
+  settings.first.lattice.maximumMemory = 800'000; // the numbers of parts have 4 bytes a voxel
+  this->ExpectFailure(settings, FailureKind::Memory, "parts of labels");
+  settings.first.lattice.maximumMemory = 0;
   settings.parts = { "lesoin" };
   this->ExpectFailure(settings, FailureKind::Usage, "did you mean lesion?");
   settings.parts = { "lesion" };

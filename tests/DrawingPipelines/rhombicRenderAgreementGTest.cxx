@@ -160,6 +160,36 @@ TEST_F(RenderAgreementTest, AnInteractivePageHasTheTableAndBothSurfaces)
   EXPECT_NE(cells.find(">0.000<"), std::string::npos) << "no part is within the tolerance: " << cells;
 }
 
+TEST_F(RenderAgreementTest, PagesSayWhatBecameOfParts)
+{
+  m_Page = m_Folder.Path() / "page.html";
+  const LabelGrid grid{ { { 60, 40, 40 } }, { 1, 1, 1 } };
+  const auto balls = [](std::initializer_list<double> places) {
+    return [centres = std::vector<double>(places)](const itk::Point<double, 3> & p) {
+      return std::any_of(
+               centres.begin(), centres.end(), [&](double x) { return std::hypot(p[0] - x, p[1], p[2]) < 5.0; })
+               ? 1
+               : 0;
+    };
+  };
+  WriteScan(MakeLabelScan(grid, balls({ -20.0, 0.0 })).image, m_Folder.Path() / "a.nii");
+  WriteScan(MakeLabelScan(grid, balls({ 0.0, 20.0 })).image, m_Folder.Path() / "b.nii");
+  CompareLabelsSettings settings;
+  settings.first.path = m_Folder.Path() / "a.nii";
+  settings.second.path = m_Folder.Path() / "b.nii";
+  settings.parts = { "*" };
+  settings.page = m_Page;
+  settings.provenance.writesSidecars = false;
+  std::vector<MadeFile> made;
+  RenderAgreement(settings, CompareLabels(settings, {}, made), std::nullopt, {});
+  std::ifstream file(m_Page);
+  const std::string page{ std::istreambuf_iterator<char>(file), {} };
+  for (const char * const words : { "<bdi>mask 1</bdi>", "<bdi>mask 2 (gone)</bdi>", "<bdi>mask 3 (new)</bdi>" })
+  {
+    EXPECT_NE(page.find(words), std::string::npos) << words;
+  }
+}
+
 TEST_F(RenderAgreementTest, AnEmptySegmentationIsRefused)
 {
   try

@@ -78,6 +78,10 @@ struct PartChange
   std::size_t partsOfSecond = 0;
 };
 
+/** What became of parts of a label from A to B: new, gone, kept, split, merged or regrouped. */
+std::string
+NameChange(const PartChange & change);
+
 /** Measures between the corners of voxels, as DeepMind's program surface-distance defines them. */
 struct VoxelMetrics
 {

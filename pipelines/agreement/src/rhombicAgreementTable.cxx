@@ -104,19 +104,6 @@ FindDoublingTime(const LabelAgreement & label)
            : std::nullopt;
 }
 
-/** What became of a part of a label from A to B. */
-std::string
-NameChange(const PartChange & change)
-{
-  if (change.partsOfFirst == 0 || change.partsOfSecond == 0)
-  {
-    return change.partsOfFirst == 0 ? "new" : "gone";
-  }
-  const bool isSplit = change.partsOfSecond > 1;
-  const bool isMerged = change.partsOfFirst > 1;
-  return isSplit && isMerged ? "regrouped" : isSplit ? "split" : isMerged ? "merged" : "kept";
-}
-
 template <double VoxelMetrics::*measure>
 Report
 FindVoxelMetric(const LabelAgreement & label)
@@ -232,6 +219,18 @@ ReportMeans(const std::vector<LabelAgreement> & labels, const std::vector<Column
 }
 
 } // namespace
+
+std::string
+NameChange(const PartChange & change)
+{
+  if (change.partsOfFirst == 0 || change.partsOfSecond == 0)
+  {
+    return change.partsOfFirst == 0 ? "new" : "gone";
+  }
+  const bool isSplit = change.partsOfSecond > 1;
+  const bool isMerged = change.partsOfFirst > 1;
+  return isSplit && isMerged ? "regrouped" : isSplit ? "split" : isMerged ? "merged" : "kept";
+}
 
 Report
 ReportAgreement(const std::vector<LabelAgreement> & labels, const CompareLabelsSettings & settings)

@@ -412,7 +412,7 @@ public:
       FindTolerance(settings.tolerances, pair); // before long work
     }
     this->NotePairing();
-    DivideIntoParts(settings.parts, m_Maps.toSecond, m_First, m_Second, m_Pairs);
+    DivideIntoParts(settings.parts, m_Maps.toSecond, settings.first.lattice.maximumMemory, m_First, m_Second, m_Pairs);
   }
 
   std::vector<LabelAgreement>

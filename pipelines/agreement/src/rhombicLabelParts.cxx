@@ -1,6 +1,7 @@
 #include "rhombicLabelParts.h"
 
 #include "rhombicFailure.h"
+#include "rhombicMemoryBudget.h"
 #include "rhombicSceneRules.h"
 #include "rhombicWording.h"
 
@@ -48,6 +49,13 @@ CastToParts(const ScanImage & layer)
       return PartImage::Pointer(cast->GetOutput());
     },
     layer);
+}
+
+std::uintmax_t
+MemoryOfParts(const Scan & map)
+{
+  return (1 + map.furtherLayers.size()) * sizeof(std::int32_t) *
+         GeometryOf(map.image).GetLargestPossibleRegion().GetNumberOfPixels();
 }
 
 /** Copies the layers of a map to images of int32, which hold any number of parts. */
@@ -254,6 +262,7 @@ AddLabel(const ComparedLabel & whole,
 void
 DivideIntoParts(const std::vector<std::string> & patterns,
                 const AffineMap * toSecond,
+                std::uintmax_t maximumMemory,
                 ComparedSide & first,
                 ComparedSide & second,
                 std::vector<LabelPair> & pairs)
@@ -263,6 +272,10 @@ DivideIntoParts(const std::vector<std::string> & patterns,
   {
     return;
   }
+  RequireMemory(MemoryOfParts(first.map->scan) + MemoryOfParts(second.map->scan),
+                maximumMemory,
+                "The parts of labels",
+                "crop the label maps");
   const std::vector<PartImage *> layersOfFirst = WidenLayers(first.map->scan);
   const std::vector<PartImage *> layersOfSecond = WidenLayers(second.map->scan);
   std::int32_t next = HighestOf(first, second) + 1;

@@ -15,11 +15,13 @@ namespace rhombic
  *
  * \param patterns names of pairs, with * and ?
  * \param toSecond maps points of A's space to B's; null for one space
+ * \param maximumMemory bytes for the numbers of parts, 4 a voxel of both maps
  * \param pairs those that fit a pattern are replaced by pairs of their parts
- * Throws Failure(Usage) for a pattern that fits no pair, and for a label of more than 1000 parts. */
+ * Throws Failure: Usage for a pattern that fits no pair, and for a label of more than 1000 parts; Memory. */
 void
 DivideIntoParts(const std::vector<std::string> & patterns,
                 const AffineMap * toSecond,
+                std::uintmax_t maximumMemory,
                 ComparedSide & first,
                 ComparedSide & second,
                 std::vector<LabelPair> & pairs);

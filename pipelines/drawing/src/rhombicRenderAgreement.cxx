@@ -61,9 +61,13 @@ RowOf(const LabelAgreement & label)
   const std::string none = "\u2013";
   LegendRow row{ label.label, label.colour, label.first.millilitres, {}, {}, "" };
   std::replace(row.name.begin(), row.name.end(), '_', ' ');
+  if (label.change && NameChange(*label.change) != "kept")
+  {
+    row.name += " (" + NameChange(*label.change) + ")";
+  }
   if (!AreCompared(label))
   {
-    row.name += label.firstSurface != nullptr ? " (not in B)" : " (not in A)";
+    row.name += label.change ? "" : label.firstSurface != nullptr ? " (not in B)" : " (not in A)";
     row.figures.assign(Headings.size(), none);
     row.figures.front() = label.firstSurface != nullptr ? FormatFixed(label.first.millilitres, 1) : none;
     return row;
