@@ -118,4 +118,45 @@ TEST_F(MeshedPlate, IsNotWrittenToFilesWithoutColoursOfPoints)
   }
 }
 
+/** A copy of a DICOM folder whose frame of reference has another last digit. */
+void
+CopyWithAnotherFrame(const std::filesystem::path & from, const std::filesystem::path & to)
+{
+  std::filesystem::create_directory(to);
+  for (const auto & entry : std::filesystem::directory_iterator(from))
+  {
+    std::ifstream file(entry.path(), std::ios::binary);
+    std::string bytes{ std::istreambuf_iterator<char>(file), {} };
+    const std::size_t element = bytes.find(std::string("\x20\0\x52\0UI", 6)); // (0020,0052), then its length
+    ASSERT_NE(element, std::string::npos);
+    char & last = bytes[element + 8 + static_cast<unsigned char>(bytes[element + 6]) - 2]; // the value's length is even
+    last = last == '1' ? '2' : '1';
+    std::ofstream(to / entry.path().filename(), std::ios::binary) << bytes;
+  }
+}
+
+TEST(MeshColours, AnotherFrameOfReferenceIsSaid)
+{
+  const std::filesystem::path scan = std::filesystem::path(RHOMBIC_TESTDATA) / "phantom/dicom";
+  const rhombictest::TemporaryFolder folder;
+  CopyWithAnotherFrame(scan, folder.Path() / "other");
+  for (const std::filesystem::path & other : { scan, folder.Path() / "other" })
+  {
+    rhombic::MeshScanSettings settings;
+    settings.source.path = scan;
+    rhombic::SurfaceRequest request;
+    request.name = "bone";
+    request.isovalue = 300.0;
+    settings.surfaces.requests = { request };
+    settings.mesh = folder.Path() / "bone.vtp";
+    settings.colourBy = rhombic::ParseColourBy(other.string());
+    std::string notes;
+    rhombic::Events events;
+    events.note = [&notes](const std::string & line) { notes += line + '\n'; };
+    rhombic::MeshScan(settings, events);
+    EXPECT_EQ(notes.find("warning: other has another frame of reference") != std::string::npos, other != scan) << notes;
+    EXPECT_EQ(notes.find("2.25."), std::string::npos) << "no UID is shown";
+  }
+}
+
 } // namespace
