@@ -34,8 +34,22 @@ using LabelImage = NumberImage;
 
 constexpr itk::SizeValueType BoxMargin = 12; // voxels around labels, beyond which they have no effect on walls
 
-constexpr itk::SizeValueType PartMargin = 12; // voxels around a part of a map, beyond which they hardly have an effect
-                                              // on the walls in it
+/** Voxels around a part of a map, beyond which they hardly have an effect on the walls in it: as far as smoothing
+ * reaches, six times the shortest edge of a voxel, and four voxels at least. */
+itk::Size<3>
+MarginOfPart(const itk::ImageBase<3> & grid)
+{
+  constexpr double shortestEdges = 6.0;
+  constexpr double fewestVoxels = 4.0;
+  const auto & spacing = grid.GetSpacing();
+  const double reach = shortestEdges * std::min({ spacing[0], spacing[1], spacing[2] });
+  itk::Size<3> margin;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    margin[axis] = static_cast<itk::SizeValueType>(std::ceil(std::max(fewestVoxels, reach / spacing[axis])));
+  }
+  return margin;
+}
 
 /** Throws Failure(Usage) for a density that is not above 0 and at most 64. */
 void
@@ -371,7 +385,7 @@ LabelImage::Pointer
 CropToPart(const LabelImage & numbers, const itk::ImageRegion<3> & box, const itk::ImageRegion<3> & part)
 {
   itk::ImageRegion<3> near = part;
-  near.PadByRadius(PartMargin);
+  near.PadByRadius(MarginOfPart(numbers));
   if (!near.Crop(box))
   {
     return nullptr;
