@@ -407,6 +407,18 @@ TEST(Batch, ACaseThatCanNotBePutInPlaceHasNoOutputs)
   EXPECT_FALSE(record.contains("measures"));
 }
 
+TEST(Batch, AFileThatCanNotBeChangedIsNamed)
+{
+  const TemporaryFolder folder;
+  WriteCollection(folder.Path(), 1);
+  ASSERT_EQ(RunShell(std::string(command) + "-o out", folder.Path()).exitCode, 12);
+  fs::create_directories(folder.Path() / "out/agreement.tsv/QzKept");
+  const Outcome outcome = RunShell(std::string(command) + "-o out", folder.Path());
+  EXPECT_EQ(outcome.exitCode, 7) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("out/agreement.tsv: Directory not empty"), std::string::npos) << outcome.errors;
+  EXPECT_TRUE(fs::exists(folder.Path() / "out/agreement.tsv/QzKept"));
+}
+
 TEST(Batch, TwoRunsOfACaseExcludeEachOther)
 {
   for (const auto & [first, second] : { std::pair("", ""), std::pair("", "--case v0"), std::pair("--case v0", "") })

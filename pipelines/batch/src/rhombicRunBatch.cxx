@@ -325,6 +325,23 @@ private:
   std::chrono::steady_clock::time_point m_Start = std::chrono::steady_clock::now();
 };
 
+/** What \a work returns. Throws Failure(Output) for a file or folder of the batch that can't be changed. */
+template <typename TWork>
+BatchSummary
+ChangeFiles(const TWork & work)
+{
+  try
+  {
+    return work();
+  }
+  catch (const fs::filesystem_error & error)
+  {
+    throw Failure(FailureKind::Output,
+                  "Cannot change " + error.path1().string() + ": " + error.code().message() +
+                    "; see to the disk, and run the batch again: finished cases are kept.");
+  }
+}
+
 } // namespace
 
 std::string
@@ -372,13 +389,13 @@ PlanBatch(const BatchSettings & settings)
 BatchSummary
 RunBatch(const BatchSettings & settings, const Events & events)
 {
-  return BatchRun(settings, events).Run();
+  return ChangeFiles([&] { return BatchRun(settings, events).Run(); });
 }
 
 BatchSummary
 WriteBatchTables(const BatchSettings & settings)
 {
-  return Summarize(settings, ReadJournal(settings.output));
+  return ChangeFiles([&] { return Summarize(settings, ReadJournal(settings.output)); });
 }
 
 } // namespace rhombic
