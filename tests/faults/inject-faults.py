@@ -34,7 +34,7 @@ COMMANDS = {
     "mesh-dicom": ["mesh", "{in}/dicom", "-t", "375.5", "--audit", "-o", "{out}/bone.ply"],
     "labels": ["mesh", "{in}/phantom-labels.nii.gz", "--labels", "{in}/phantom-labels.nii.gz", "--only", "*kidney*", "-o", "{out}/k.glb"],
     "render": ["render", "{in}/phantom.nii.gz", "--surface", "bone=375.5", "--size", "200", "-o", "{out}/bone.png"],
-    "page": ["render", "{in}/phantom.nii.gz", "--surface", "bone=375.5", "--sheet", "{out}/page.pdf"],
+    "page": ["render", "{in}/phantom.nii.gz", "--surface", "bone=375.5", "--sheet", "-o", "{out}/page.pdf"],
     "resample": ["resample", "{in}/phantom.nii.gz", "-o", "{out}/lattice.fcc.nrrd"],
     "compare": ["compare-labels", "{in}/phantom-labels.nii.gz", "{in}/phantom-labels.nii.gz", "--only", "*kidney*", "-o", "{out}/t.csv"],
     "audit": ["audit", "{in}/bone.stl"],
@@ -131,6 +131,8 @@ def main():
         runs = Runs(program, testdata, base)
         for command in chosen:
             code, text, files = runs.run(command, "-e", "trace=none")
+            if code != 0 or not files and command not in ("info", "info-dicom", "audit"):
+                sys.exit(f"{command}: without a fault, exit code {code} and {len(files)} files: {text}")
             usual = code, files
             numbers = runs.calls(command)
             tried = bad = 0
