@@ -101,39 +101,23 @@ MakePatch(const TriangleSurface & surface, const Sheets & sheets, const Triangle
   return patch;
 }
 
-/** A tree of all triangles of a surface, and a tree of each sheet. */
-class SheetTrees
+/** A tree of each sheet's triangles. */
+std::vector<TriangleTree>
+TreesOfSheets(const TriangleSurface & surface, const Sheets & sheets, std::size_t numberOfSheets)
 {
-public:
-  SheetTrees(const TriangleSurface & surface, const Sheets & sheets, std::size_t numberOfSheets)
-    : m_All(surface)
+  std::vector<std::vector<TriangleId>> triangles(numberOfSheets);
+  for (TriangleId id = 0; id < sheets.size(); ++id)
   {
-    std::vector<std::vector<TriangleId>> triangles(numberOfSheets);
-    for (TriangleId id = 0; triangles.size() > 1 && id < sheets.size(); ++id)
-    {
-      triangles[sheets[id]].push_back(id);
-    }
-    for (std::size_t sheet = 0; triangles.size() > 1 && sheet < triangles.size(); ++sheet)
-    {
-      m_Sheets.emplace_back(surface, std::move(triangles[sheet]));
-    }
+    triangles[sheets[id]].push_back(id);
   }
-
-  const TriangleTree &
-  GetAll() const
+  std::vector<TriangleTree> trees;
+  trees.reserve(numberOfSheets);
+  for (auto & sheet : triangles)
   {
-    return m_All;
+    trees.emplace_back(surface, std::move(sheet));
   }
-  const TriangleTree &
-  Get(std::uint32_t sheet) const
-  {
-    return m_Sheets.empty() ? m_All : m_Sheets[sheet];
-  }
-
-private:
-  TriangleTree m_All;
-  std::vector<TriangleTree> m_Sheets; ///< empty if there is one
-};
+  return trees;
+}
 
 /** The surface before simplification. Sheets have no points in common, so that each point lies in one sheet. */
 struct Original
@@ -141,14 +125,14 @@ struct Original
   Sheets sheets;
   std::size_t numberOfSheets;
   TriangleSurface::Pointer surface;
-  SheetTrees trees;
+  std::vector<TriangleTree> trees; ///< of the sheets
   TrianglesOfPoints trianglesOfPoints;
 
   Original(const TriangleSurface & before, const Sheets & sheetsBefore)
     : sheets(sheetsBefore)
     , numberOfSheets(*std::max_element(sheets.begin(), sheets.end()) + std::size_t{ 1 })
     , surface(Copy(before, sheets))
-    , trees(*surface, sheets, numberOfSheets)
+    , trees(TreesOfSheets(*surface, sheets, numberOfSheets))
     , trianglesOfPoints(*surface)
   {}
 
@@ -495,12 +479,18 @@ private:
   FindBad(bool checksAll)
   {
     Flags isBad(m_State.GetNumberOfTriangles(), 0);
-    const SheetTrees state(m_State, m_Sheets, m_Original != nullptr ? m_Original->numberOfSheets : 1);
-    this->FindContacts(state.GetAll(), isBad);
+    std::vector<TriangleTree> trees; // of all triangles, and then, in place of it, of the sheets
+    trees.emplace_back(m_State);
+    this->FindContacts(trees.front(), isBad);
     if (m_Original != nullptr)
     {
       this->FindStrays(isBad);
-      this->FindUncovered(state, checksAll, isBad);
+      if (m_Original->numberOfSheets > 1)
+      {
+        trees.clear();
+        trees = TreesOfSheets(m_State, m_Sheets, m_Original->numberOfSheets);
+      }
+      this->FindUncovered(trees, checksAll, isBad);
     }
     for (TriangleId id = 0; id < isBad.size(); ++id)
     {
@@ -549,7 +539,7 @@ private:
       {
         const auto & triangle = triangles[id];
         const CornersType corners = CornersOf(m_State, triangle);
-        const TriangleTree & tree = m_Original->trees.Get(m_Sheets[id]);
+        const TriangleTree & tree = m_Original->trees[m_Sheets[id]];
         std::array<TriangleId, 3> near{};
         for (unsigned int corner = 0; corner < 3; ++corner)
         {
@@ -567,7 +557,7 @@ private:
   /** Adds the triangles around those of the original that are farther than maximumError from the state. Checks those of
    * which corners are covered by a triangle that has changed, or all that are not covered by these triangles alone. */
   void
-  FindUncovered(const SheetTrees & state, bool checksAll, Flags & isBad)
+  FindUncovered(const std::vector<TriangleTree> & state, bool checksAll, Flags & isBad)
   {
     const TriangleSurface & original = *m_Original->surface;
     const auto & triangles = original.GetTriangles();
@@ -579,7 +569,7 @@ private:
       if (hasChanged || (checksAll && !m_IsCovered[id]))
       {
         const CornersType corners = CornersOf(original, triangles[id]);
-        const TriangleTree & tree = state.Get(m_Original->sheets[id]);
+        const TriangleTree & tree = state[m_Original->sheets[id]];
         const TriangleProximity proximity(corners, tree, m_MaximumError);
         m_IsCovered[id] = (near[0] == near[1] && near[1] == near[2]) || proximity.IsNearOneOf(near);
         isUncovered[id] = !m_IsCovered[id] && !proximity.IsNearSurface(near);
@@ -589,7 +579,7 @@ private:
     {
       if (isUncovered[id])
       {
-        this->AddAround(id, state.Get(m_Original->sheets[id]), isBad);
+        this->AddAround(id, state[m_Original->sheets[id]], isBad);
       }
     }
   }
