@@ -7,6 +7,7 @@ find_package(VTK 9.1 REQUIRED COMPONENTS CommonColor CommonCore CommonDataModel 
 find_package(OpenGL REQUIRED COMPONENTS EGL)
 find_package(OpenImageIO 2.4 REQUIRED)
 find_package(GIF 5 REQUIRED)
+find_package(JPEG REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(yaml-cpp REQUIRED)
 find_package(nlohmann_json REQUIRED)

@@ -78,7 +78,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS # the program's package has the helpers that readers start
     "rhombic (= ${PROJECT_VERSION})" "${ITK_DEBIAN_PACKAGE}" libexpat1-dev libhwy-dev libmeshoptimizer-dev nlohmann-json3-dev zlib1g-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS # for the components of rendering, pictures and pipelines alone
-    "${VTK_DEBIAN_PACKAGE}" "${OpenImageIO_DEBIAN_PACKAGE}" libegl-dev libgif-dev libpango1.0-dev libyaml-cpp-dev openimageio-tools)
+    "${VTK_DEBIAN_PACKAGE}" "${OpenImageIO_DEBIAN_PACKAGE}" libegl-dev libgif-dev libjpeg-dev libpango1.0-dev libyaml-cpp-dev openimageio-tools)
 list(JOIN CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS)
 list(JOIN CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "${method}\nThis package has its modules for programs of your own:

@@ -9,7 +9,7 @@ packages=(
   ca-certificates ccache cmake g++ git ninja-build pkg-config
   libinsighttoolkit5-dev libvtk9-dev
   libopenimageio-dev openimageio-tools # the CMake package of the first looks for the programs of the second
-  libgif-dev
+  libgif-dev libjpeg62-turbo-dev
   libegl-dev libegl1 libgl1-mesa-dri
   libpango1.0-dev fonts-dejavu-core
   libcli11-dev libyaml-cpp-dev nlohmann-json3-dev libspdlog-dev zlib1g-dev libexpat1-dev libhwy-dev libmeshoptimizer-dev

@@ -180,10 +180,11 @@ StageScenePages(const RenderSheetSettings & settings,
                 const Events & events,
                 OutputFiles & outputs);
 
-/** Draws the still pictures of a scene, makes its interactive page, and stages the page with the scene's report. */
+/** Draws the still pictures of a scene, makes its interactive page, and stages the page with the scene's report. The
+ * scene is taken, so that its surfaces are freed while they are simplified. */
 void
 StageScenePage(const RenderPageSettings & settings,
-               PictureScene & scene,
+               PictureScene scene,
                SurfaceRenderer & renderer,
                const Events & events,
                OutputFiles & outputs);

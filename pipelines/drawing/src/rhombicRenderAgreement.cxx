@@ -198,7 +198,7 @@ RenderAgreement(const CompareLabelsSettings & settings,
   OutputFiles outputs{ settings.provenance };
   if (IsPagePath(settings.page))
   {
-    StageScenePage(InteractivePageOf(settings), scene, renderer, events, outputs);
+    StageScenePage(InteractivePageOf(settings), std::move(scene), renderer, events, outputs);
     outputs.staged.Commit();
     return outputs.made;
   }

@@ -198,6 +198,23 @@ ContentOf(const RenderPageSettings & settings, const PictureScene & scene)
   return page;
 }
 
+void
+DrawPictures(const RenderPageSettings & settings,
+             const PictureScene & scene,
+             SurfaceRenderer & renderer,
+             const Events & events,
+             PageContent & content)
+{
+  Scene drawn;
+  drawn.surfaces = ShadedSurfaces(scene);
+  events.Progress("drawing views", 0.0);
+  DrawViews(settings, scene, drawn, renderer, content);
+  events.Progress("turning the surfaces", 0.0);
+  DrawTurntable(settings, scene, drawn, renderer, content);
+  events.Progress("drawing slices", 0.0);
+  DrawSlices(settings, scene, content);
+}
+
 Report
 ReportWeight(const PageWeight & weight)
 {
@@ -251,22 +268,17 @@ CheckRenderPage(const RenderPageSettings & settings)
 
 void
 StageScenePage(const RenderPageSettings & settings,
-               PictureScene & scene,
+               PictureScene scene,
                SurfaceRenderer & renderer,
                const Events & events,
                OutputFiles & outputs)
 {
   PageContent content = ContentOf(settings, scene);
   events.Note("page: " + content.facts.back());
-  Scene drawn;
-  drawn.surfaces = ShadedSurfaces(scene);
-  events.Progress("drawing views", 0.0);
-  DrawViews(settings, scene, drawn, renderer, content);
-  events.Progress("turning the surfaces", 0.0);
-  DrawTurntable(settings, scene, drawn, renderer, content);
-  events.Progress("drawing slices", 0.0);
-  DrawSlices(settings, scene, content);
-  const MadePage page = MakeInteractivePage(content, events);
+  DrawPictures(settings, scene, renderer, events, content);
+  const Picture first = content.views.front().picture; // for a thumbnail
+  scene.surfaces = scene.drawnAsLines = {};
+  const MadePage page = MakeInteractivePage(std::move(content), events);
   for (const std::string & note : page.weight.notes)
   {
     events.Note("page: " + note);
@@ -274,7 +286,7 @@ StageScenePage(const RenderPageSettings & settings,
   scene.report["page"] = ReportWeight(page.weight);
   StageText(page.html, settings.page, outputs.staged);
   AddOutput(settings.page, "page", scene.report, outputs);
-  StageFilesBeside({ content.views.front().picture }, settings, std::nullopt, {}, 0.0, events, outputs);
+  StageFilesBeside({ first }, settings, std::nullopt, {}, 0.0, events, outputs);
 }
 
 std::vector<MadeFile>
@@ -292,7 +304,7 @@ RenderPage(const RenderPageSettings & settings, const Events & events, std::opti
     ColourSurfaces(*settings.colourBy, scene, events);
   }
   OutputFiles outputs{ settings.provenance };
-  StageScenePage(settings, scene, renderer, events, outputs);
+  StageScenePage(settings, std::move(scene), renderer, events, outputs);
   outputs.staged.Commit();
   return outputs.made;
 }

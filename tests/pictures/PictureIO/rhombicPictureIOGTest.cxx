@@ -315,6 +315,36 @@ TEST_F(PictureIO, ResolutionIsWritten)
   }
 }
 
+TEST_F(PictureIO, EncodedJpegHasThePixelsOfAFileInFewerBytes)
+{
+  const Picture picture = SmoothPicture();
+  rhombic::PictureMetadata metadata;
+  metadata.jpegQuality = 85;
+  const fs::path file = m_Folder / "file.jpg";
+  rhombic::WritePicture(picture, file, metadata);
+  const auto readEncoded = [&](bool halvesColour) {
+    const std::string bytes = rhombic::EncodeJpeg(picture, metadata.jpegQuality, halvesColour);
+    EXPECT_EQ(bytes, rhombic::EncodeJpeg(picture, metadata.jpegQuality, halvesColour));
+    EXPECT_LT(bytes.size(), fs::file_size(file));
+    EXPECT_EQ(bytes.find("Exif"), std::string::npos);
+    const fs::path encoded = m_Folder / "encoded.jpg";
+    std::ofstream(encoded, std::ios::binary) << bytes;
+    return rhombic::ReadPicture(encoded);
+  };
+  EXPECT_EQ(readEncoded(false).pixels, rhombic::ReadPicture(file).pixels);
+  const auto halved = rhombic::ComparePictures(readEncoded(true), picture, 0.0);
+  EXPECT_LT(halved.meanError, 0.02);
+  EXPECT_GT(halved.meanError, rhombic::ComparePictures(readEncoded(false), picture, 0.0).meanError);
+}
+
+TEST_F(PictureIO, JpegOfImpossiblePicturesIsFailure)
+{
+  for (const Picture & picture : { Picture(), Picture(70'000, 1), Picture(8, 8, 4) })
+  {
+    EXPECT_THROW(rhombic::EncodeJpeg(picture, 85, false), Failure);
+  }
+}
+
 TEST_F(PictureIO, PagesComeBackInOrder)
 {
   const std::vector<Picture> pages{ TestPicture(), SmoothPicture(), AlphaPicture() };

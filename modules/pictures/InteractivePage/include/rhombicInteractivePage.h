@@ -109,11 +109,12 @@ struct MadePage
  * surfaces would have too little room. Values of points are interpolated at the points of the simplified surface, and
  * have 255 steps from the scale's lower to its upper end; surfaces with values do not share walls, so that each has its
  * own values there, and neighbours are simplified apart. A page that is too large all the same is made, with a note.
- * The same bytes for any number of threads.
+ * The same bytes for any number of threads. Pictures and surfaces are freed as soon as they are coded or joined, where
+ * nobody else holds them: give the content away by std::move().
  *
  * Throws Failure(Usage) without surfaces. */
 MadePage
-MakeInteractivePage(const PageContent & content, const Events & events);
+MakeInteractivePage(PageContent content, const Events & events);
 
 } // namespace rhombic
 

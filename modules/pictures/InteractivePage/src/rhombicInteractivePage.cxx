@@ -47,15 +47,6 @@ DataBlock(const std::string & id, std::string_view bytes)
 }
 
 std::string
-JpegOf(const Picture & picture, int quality, bool halvesColour = false)
-{
-  PictureMetadata metadata;
-  metadata.jpegQuality = quality;
-  metadata.jpegHalves = halvesColour;
-  return EncodePicture(picture, ".jpg", metadata);
-}
-
-std::string
 HexOf(const Colour & colour)
 {
   constexpr char digits[] = "0123456789abcdef";
@@ -76,7 +67,8 @@ FigureOf(const StillPicture & picture, const std::string & what)
   const std::string caption = EscapeHtml(picture.caption);
   return "<figure><img alt=\"" + what + ": " + caption + "\" width=\"" + std::to_string(picture.picture.width) +
          "\" height=\"" + std::to_string(picture.picture.height) + "\" src=\"data:image/jpeg;base64," +
-         ToBase64(JpegOf(picture.picture, quality)) + "\"><figcaption>" + caption + "</figcaption></figure>\n";
+         ToBase64(EncodeJpeg(picture.picture, quality, false)) + "\"><figcaption>" + caption +
+         "</figcaption></figure>\n";
 }
 
 std::string
@@ -140,7 +132,6 @@ ListOf(const std::vector<std::string> & lines)
   return list;
 }
 
-/** What the script has to know of the surfaces. */
 Json
 DescribeSurfaces(const PageContent & content)
 {
@@ -218,6 +209,8 @@ struct FixedParts
   std::string pictures; ///< HTML
   std::string table;
   std::string turntable; ///< data blocks
+  std::size_t turns = 0; ///< number of them
+  Json surfaces;         ///< what the script has to know of them
 };
 
 /** Parts of a page that are made as small as it needs. */
@@ -230,28 +223,35 @@ struct ReducedParts
   std::size_t numberOfSliceBlocks = 0;
 };
 
+/** Takes the pictures of the content, which are not needed after that. */
 FixedParts
-MakeFixedParts(const PageContent & content)
+MakeFixedParts(PageContent & content)
 {
   constexpr int quality = 78;
   FixedParts parts;
   parts.pictures = FiguresOf(content.views, "view") + FiguresOf(content.slices, "slice");
   parts.table = WriteTable(content.table ? *content.table : MeasuresOf(content));
-  for (std::size_t n = 0; n < content.turntable.size(); ++n)
+  parts.surfaces = DescribeSurfaces(content);
+  for (const Picture & picture : content.turntable)
   {
-    parts.turntable += DataBlock("turn-" + std::to_string(n), JpegOf(content.turntable[n], quality, true));
+    parts.turntable += DataBlock("turn-" + std::to_string(parts.turns), EncodeJpeg(picture, quality, true));
+    ++parts.turns;
   }
+  content.views = content.slices = {};
+  content.turntable = {};
   return parts;
 }
 
+/** Takes the surfaces of the content. */
 PageMeshMaker
-MakerOf(const PageContent & content)
+MakerOf(PageContent & content)
 {
   std::vector<SceneSurface> surfaces;
-  for (const PageSurface & surface : content.surfaces)
+  for (PageSurface & surface : content.surfaces)
   {
-    surfaces.push_back(surface.scene);
+    surfaces.push_back(std::move(surface.scene));
   }
+  content.surfaces.clear();
   return PageMeshMaker(surfaces, content.scale);
 }
 
@@ -382,9 +382,9 @@ FillPage(const PageContent & content,
 {
   Json data{ { "title", content.title },
              { "oriented", content.isOriented },
-             { "surfaces", DescribeSurfaces(content) },
+             { "surfaces", fixed.surfaces },
              { "mesh", DescribeMesh(parts.mesh) },
-             { "turntable", content.turntable.size() } };
+             { "turntable", fixed.turns } };
   if (content.scale)
   {
     data["colours"] = DescribeColours(*content.scale);
@@ -411,7 +411,7 @@ FillPage(const PageContent & content,
 } // namespace
 
 MadePage
-MakeInteractivePage(const PageContent & content, const Events & events)
+MakeInteractivePage(PageContent content, const Events & events)
 {
   if (content.surfaces.empty())
   {

@@ -25,7 +25,6 @@ struct PictureMetadata
   std::string commandLine;    ///< the command that made the picture
   double pixelsPerInch = 0.0; ///< for printing; 0: not written
   int jpegQuality = 95;       ///< 1 to 100
-  bool jpegHalves = false;    ///< whether JPEG files hold colours at half the size, which blurs those of thin lines
 };
 
 /** Throws Failure(Usage) where WritePicture() would throw it because of the extension, for a picture of 3 or 4
@@ -38,10 +37,12 @@ CheckPicturePath(const std::filesystem::path & path, int channels = 3);
 void
 WritePicture(const Picture & picture, const std::filesystem::path & path, const PictureMetadata & metadata);
 
-/** The bytes of a file as WritePicture() makes it, in a format that has one picture in memory: .png or .jpg, the
- * \a extension. Throws Failure: Usage as WritePicture() does, Output when it can't be encoded. */
+/** The bytes of a JPEG file, of a picture of 3 channels, without metadata; made by libjpeg alone, as OpenImageIO takes
+ * 70 MB of memory. Thread safe. Throws Failure(Output) when the picture can't be encoded.
+ * \param quality 1 to 100
+ * \param halvesColour whether colours are held at half the size, which blurs those of thin lines */
 std::string
-EncodePicture(const Picture & picture, const std::string & extension, const PictureMetadata & metadata);
+EncodeJpeg(const Picture & picture, int quality, bool halvesColour);
 
 /** As WritePicture(). */
 void

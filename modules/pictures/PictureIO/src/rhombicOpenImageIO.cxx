@@ -53,7 +53,7 @@ MakeSpec(const Picture & picture, const PictureFormat & format, const PictureMet
   if (format.name == "jpeg")
   {
     spec.attribute("Compression", "jpeg:" + std::to_string(metadata.jpegQuality));
-    spec.attribute("jpeg:subsampling", metadata.jpegHalves ? "4:2:0" : "4:4:4");
+    spec.attribute("jpeg:subsampling", "4:4:4");
   }
   if (metadata.pixelsPerInch > 0.0)
   {

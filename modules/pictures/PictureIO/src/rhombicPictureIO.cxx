@@ -163,19 +163,6 @@ CheckAnimationPath(const fs::path & path, int channels)
   FormatOf(path, PictureUse::Animation, channels == 4);
 }
 
-std::string
-EncodePicture(const Picture & picture, const std::string & extension, const PictureMetadata & metadata)
-{
-  const PictureFormat format = FormatOf("picture" + extension, PictureUse::Single, picture.channels == 4);
-  std::vector<unsigned char> bytes;
-  const std::string error = GetPictureCodec().Encode({ &picture, 1, metadata }, format, {}, bytes);
-  if (!error.empty() || bytes.empty())
-  {
-    throw Failure(FailureKind::Output, "A picture can't be encoded as " + format.name + ": " + error + ".");
-  }
-  return { bytes.begin(), bytes.end() };
-}
-
 void
 StagePicture(const Picture & picture, const fs::path & path, StagedFiles & staged, const PictureMetadata & metadata)
 {
