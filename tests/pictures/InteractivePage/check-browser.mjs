@@ -1,6 +1,6 @@
 // Opens the pages of check-browser.sh in Chromium, as a reader does, and looks at what it shows.
 import { execFileSync } from 'node:child_process';
-import { readFileSync } from 'node:fs';
+import { existsSync, readFileSync } from 'node:fs';
 import { resolve } from 'node:path';
 import axe from 'axe-core';
 import { chromium } from 'playwright-core';
@@ -494,6 +494,44 @@ await open('surfaces.html', { colorScheme: 'light' }, async (page) => {
   check(await lettersOf(page, '#scene') === 'A P H F', 'keys turn the scene');
   await page.screenshot({ path: 'surfaces.png' });
 });
+
+/** A click on the only organ that is shown: where the crosshair is then. */
+async function placeOf(page, organ) {
+  await page.getByRole('button', { name: `Show only ${organ}`, exact: true }).click();
+  await page.locator('#canvas').focus();
+  await page.keyboard.press('1');
+  await drawn(page);
+  const pixels = await pixelsOf(page);
+  const lit = [];
+  for (let n = 0; n < pixels.width * pixels.height; n++) if (isLit(pixels, n)) lit.push(n);
+  const middle = lit[lit.length >> 1];
+  const box = await page.locator('#canvas').boundingBox();
+  await page.mouse.click(box.x + middle % pixels.width, box.y + Math.floor(middle / pixels.width));
+  await drawn(page);
+  check(await page.locator('#told').textContent() === organ, `a click on ${organ} names it`);
+  return readout(page);
+}
+
+// Real scans, where the shell script had them.
+if (existsSync('real-organs.html')) {
+  await open('real-organs.html', {}, async (page) => {
+    await checkLetters(page);
+    const [liver, spleen] = [await placeOf(page, 'liver'), await placeOf(page, 'spleen')];
+    check(liver.point[0] + 80 < spleen.point[0], `the liver is on the patient's right: x of ${liver.point[0]} and ${spleen.point[0]} mm`);
+    for (const { text } of [liver, spleen]) {
+      const value = Number(/: \D*?(-?\d+) HU/.exec(text)[1]);
+      check(value > -150 && value < 250, `on its surface the scan has ${value} HU`);
+    }
+    await page.screenshot({ path: 'real-organs.png' });
+  });
+  await open('real-tilted.html', {}, async (page) => {
+    await checkLetters(page);
+    check((await page.locator('#tools').textContent()).includes('resampled along'), 'the page of a tilted scan says that slices are resampled');
+    const { point } = await placeOf(page, 'skin');
+    check(point[1] < 0, `seen from the front, the skin is in front of the middle: ${point}`);
+    await page.screenshot({ path: 'real-tilted.png' });
+  });
+}
 
 console.log(failures === 0 ? 'all is well' : `${failures} checks failed`);
 process.exit(failures === 0 ? 0 : 1);
