@@ -255,6 +255,27 @@ TEST(InteractivePage, SurfacesWithValuesHaveTheirOwnWalls)
   EXPECT_EQ(Decode(mesh).numbers, std::vector<std::uint16_t>(8, 128));
 }
 
+TEST(InteractivePage, SurfacesWithValuesAreSimplifiedBesideEachOther)
+{
+  std::vector<SceneSurface> surfaces{ Named("a", itk::example::MakeSphere(20.0, 6, { 0.0, 0.0, 0.0 })),
+                                      Named("b", itk::example::MakeSphere(20.0, 6, { 0.0, 0.0, 0.0 })) };
+  for (SceneSurface & surface : surfaces)
+  {
+    const std::vector<float> values(surface.surface->GetNumberOfPoints(), 1.0f);
+    surface.pointValues = std::make_shared<PointValues>(PointValues{ "", values });
+  }
+  PageMeshMaker maker(surfaces, ColourScale{ "viridis", 0.0, 2.0, "" });
+  const std::size_t before = maker.GetNumberOfTriangles();
+  maker.Simplify(before / 10, 1.0);
+  const PageMesh mesh = maker.Make();
+  EXPECT_TRUE(mesh.refusal.empty()) << mesh.refusal;
+  EXPECT_LE(mesh.triangles, before / 10);
+  EXPECT_LE(mesh.measuredError, 1.0);
+  ASSERT_EQ(mesh.sheets.size(), 2u);
+  EXPECT_EQ(mesh.sheets[0].triangles, mesh.sheets[1].triangles);
+  EXPECT_EQ(Decode(mesh).numbers, std::vector<std::uint16_t>(mesh.points, 128));
+}
+
 TEST(InteractivePage, TheBarIsThatOfTheScale)
 {
   PageContent content = MakeContent(nullptr);

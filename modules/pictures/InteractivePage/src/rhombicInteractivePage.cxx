@@ -37,7 +37,8 @@ constexpr double ShareOfTriangles = 0.25; // more are hardly seen
 constexpr double ErrorForShare = 0.1;     // mm
 constexpr double LargestError = 3.2;      // mm
 constexpr std::size_t FewestTriangles = 100;
-constexpr double BytesOfTriangle = 3.4; // in base64; surfaces with many triangles need 3.3
+constexpr double BytesOfTriangle = 3.4;       // in base64; surfaces with many triangles need 3.3
+constexpr double BytesOfValuedTriangle = 4.2; // where points have values
 
 /** A data block of the page: what browsers do not run, under an id that the script looks for. */
 std::string
@@ -258,10 +259,14 @@ MakerOf(PageContent & content)
 /** Simplifies surfaces once for the room that they have, and goes on with larger errors only where that is too little.
  */
 void
-CodeSurfaces(std::uintmax_t room, const Events & events, PageMeshMaker & maker, ReducedParts & parts)
+CodeSurfaces(std::uintmax_t room,
+             double bytesOfTriangle,
+             const Events & events,
+             PageMeshMaker & maker,
+             ReducedParts & parts)
 {
   const auto triangles = static_cast<double>(maker.GetNumberOfTriangles());
-  double target = std::min(static_cast<double>(room) / BytesOfTriangle, ShareOfTriangles * triangles);
+  double target = std::min(static_cast<double>(room) / bytesOfTriangle, ShareOfTriangles * triangles);
   for (double error = ErrorForShare; error <= LargestError; error *= 2.0)
   {
     maker.Simplify(std::max(FewestTriangles, static_cast<std::size_t>(target)), error, [&events](double done) {
@@ -425,6 +430,7 @@ MakeInteractivePage(PageContent content, const Events & events)
   ReducedParts parts;
   const std::uintmax_t fixedSize =
     std::size(PageScript) + std::size(PageStyle) + fixed.table.size() + fixed.pictures.size() + fixed.turntable.size();
+  const double bytesOfTriangle = content.scale ? BytesOfValuedTriangle : BytesOfTriangle;
   std::uintmax_t room = 0;
   for (const SliceCoding & coding : SliceCodings)
   {
@@ -436,12 +442,12 @@ MakeInteractivePage(PageContent content, const Events & events)
     const std::uintmax_t taken = fixedSize + parts.sliceBlocks.size();
     room = content.largestSize > taken ? content.largestSize - taken : 0;
     if (static_cast<double>(room) >=
-        BytesOfTriangle * coding.leastShare * static_cast<double>(maker.GetNumberOfTriangles()))
+        bytesOfTriangle * coding.leastShare * static_cast<double>(maker.GetNumberOfTriangles()))
     {
       break;
     }
   }
-  CodeSurfaces(room, events, maker, parts);
+  CodeSurfaces(room, bytesOfTriangle, events, maker, parts);
   MadePage page;
   page.weight = WeightOf(content, fixed, parts);
   page.weight.size = fixedSize + parts.sliceBlocks.size() + parts.surfaceBlocks.size();

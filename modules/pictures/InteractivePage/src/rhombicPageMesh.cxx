@@ -23,6 +23,19 @@ using Surface = itk::TriangleSurface;
 using Sides = std::array<std::uint32_t, 2>;
 using Position = std::array<std::uint16_t, 4>; // meshoptimizer codes multiples of 4 bytes
 
+/** Adds points and triangles of a surface to others. */
+void
+Append(const Surface & surface, Surface & joined)
+{
+  const auto first = static_cast<std::uint32_t>(joined.GetNumberOfPoints());
+  auto & points = joined.GetPoints();
+  points.insert(points.end(), surface.GetPoints().begin(), surface.GetPoints().end());
+  for (const auto & [a, b, c] : surface.GetTriangles())
+  {
+    joined.GetTriangles().push_back({ first + a, first + b, first + c });
+  }
+}
+
 /** All surfaces as one mesh, in which each has its own points and triangles. */
 JoinedSurfaces
 AppendSurfaces(const std::vector<SceneSurface> & surfaces)
@@ -31,17 +44,52 @@ AppendSurfaces(const std::vector<SceneSurface> & surfaces)
   joined.surface = Surface::New();
   for (std::size_t n = 0; n < surfaces.size(); ++n)
   {
-    const Surface & surface = *surfaces[n].surface;
-    const auto first = static_cast<std::uint32_t>(joined.surface->GetNumberOfPoints());
-    auto & points = joined.surface->GetPoints();
-    points.insert(points.end(), surface.GetPoints().begin(), surface.GetPoints().end());
-    for (const auto & [a, b, c] : surface.GetTriangles())
-    {
-      joined.surface->GetTriangles().push_back({ first + a, first + b, first + c });
-      joined.sides.push_back({ static_cast<std::uint32_t>(n + 1), 0 });
-    }
+    Append(*surfaces[n].surface, *joined.surface);
+    joined.sides.resize(joined.surface->GetNumberOfTriangles(), { static_cast<std::uint32_t>(n + 1), 0 });
   }
   return joined;
+}
+
+/** Simplifies sheets that have no points in common, each on its own to the same share of its triangles: they may lie in
+ * the same place, as walls of neighbours do, where one could not change beside the other. */
+void
+SimplifyApart(Surface & surface,
+              std::vector<std::uint32_t> & sheets,
+              std::size_t numberOfSheets,
+              std::size_t triangles,
+              double error,
+              const ProgressFunction & report)
+{
+  const double share = static_cast<double>(triangles) / static_cast<double>(sheets.size());
+  std::vector<Surface::Pointer> parts;
+  for (std::size_t n = 0; n < numberOfSheets; ++n)
+  {
+    parts.push_back(Surface::New());
+    parts.back()->GetPoints() = surface.GetPoints();
+    for (std::size_t triangle = 0; triangle < sheets.size(); ++triangle)
+    {
+      if (sheets[triangle] == n)
+      {
+        parts.back()->GetTriangles().push_back(surface.GetTriangles()[triangle]);
+      }
+    }
+    const auto target = static_cast<std::size_t>(share * static_cast<double>(parts.back()->GetNumberOfTriangles()));
+    // Surfaces of labels may meet themselves at edges and points, as sheets may, but not those of sheet 0 alone.
+    std::vector<std::uint32_t> sheet(parts.back()->GetNumberOfTriangles(), 1);
+    SimplifyTriangleSurface(*parts.back(), sheet, { std::max<std::size_t>(1, target), error });
+    if (report)
+    {
+      report(static_cast<double>(n + 1) / static_cast<double>(numberOfSheets));
+    }
+  }
+  surface.GetPoints().clear();
+  surface.GetTriangles().clear();
+  sheets.clear();
+  for (std::uint32_t n = 0; n < numberOfSheets; ++n)
+  {
+    Append(*parts[n], surface);
+    sheets.resize(surface.GetNumberOfTriangles(), n);
+  }
 }
 
 /** The value of a surface's point nearest to a position, linear in the triangle; NaN where a corner has none. */
@@ -205,7 +253,15 @@ PageMeshMaker::Simplify(std::size_t triangles, double error, const ProgressFunct
   const auto sheets = m_Sheets;
   try
   {
-    SimplifyTriangleSurface(*m_Surface, m_Sheets, { triangles, error - m_Error }, report); // distances add up
+    const double further = error - m_Error; // distances add up
+    if (m_Scale)
+    {
+      SimplifyApart(*m_Surface, m_Sheets, m_Sides.size(), triangles, further, report);
+    }
+    else
+    {
+      SimplifyTriangleSurface(*m_Surface, m_Sheets, { triangles, further }, report);
+    }
     m_Error = error;
   }
   catch (const itk::ExceptionObject & exception)
