@@ -66,6 +66,19 @@ RestoreVolumes(const LabelWalls & walls,
   }
 }
 
+/** Strata in which points that have moved are fixed: others make up for the volumes that they have changed. */
+PointStrata
+HoldMoved(PointStrata strata,
+          const TriangleSurface::PointsContainer & before,
+          const TriangleSurface::PointsContainer & after)
+{
+  for (std::size_t point = 0; point < before.size(); ++point)
+  {
+    strata.strata[point] = before[point] == after[point] ? strata.strata[point] : Stratum::Fixed;
+  }
+  return strata;
+}
+
 } // namespace
 
 TriangleSurfaceSmoothingReport
@@ -85,8 +98,16 @@ RelaxLabelWalls(LabelWalls & walls,
   const PointStrata strata = FindStrata(walls, fans);
   BoundedMoves moves(walls, fans, MoveBound(settings), WallLimits);
   SmoothSheets(walls, fans, strata, settings.iterations, moves, progress, 0.5);
-  RestoreVolumes(walls, wanted, fans, strata, moves, progress, 0.8);
-  moves.PutBackMeeting(progress, 1.0);
+  RestoreVolumes(walls, wanted, fans, strata, moves, progress, 0.7);
+  const auto restored = walls.GetPoints();
+  moves.PutBackMeeting(progress, 0.8);
+  if (const auto putBack = walls.GetPoints(); putBack != restored)
+  {
+    RestoreVolumes(walls, wanted, fans, HoldMoved(strata, restored, putBack), moves, progress, 0.9);
+    moves.PutBackMeeting(progress, 1.0);
+  }
+  progress.Begin(1.0, 1);
+  progress.Completed(1);
   walls.Modified();
   return moves.Finish(strata);
 }
