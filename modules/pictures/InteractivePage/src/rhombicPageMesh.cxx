@@ -73,6 +73,7 @@ SimplifyApart(Surface & surface,
         parts.back()->GetTriangles().push_back(surface.GetTriangles()[triangle]);
       }
     }
+    parts.back()->RemoveUnusedPoints();
     const auto target = static_cast<std::size_t>(share * static_cast<double>(parts.back()->GetNumberOfTriangles()));
     // Surfaces of labels may meet themselves at edges and points, as sheets may, but not those of sheet 0 alone.
     std::vector<std::uint32_t> sheet(parts.back()->GetNumberOfTriangles(), 1);

@@ -41,6 +41,7 @@ Compress(const Picture & picture, int quality, bool halvesColour, unsigned char 
   errors.manager.output_message = KeepMessage;
   if (setjmp(errors.afterError) != 0)
   {
+    *bytes = writer.next_scanline == 0 ? *bytes : nullptr; // which libjpeg may have freed for a larger block
     jpeg_destroy_compress(&writer);
     return false;
   }
