@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
 namespace
 {
@@ -80,6 +82,36 @@ TEST(Hiding, RaysPassWhatCutsRemove)
   const SceneSurface box = Cube("box", 6);
   EXPECT_FLOAT_EQ(rhombic::FindDepths(box, cuts, FrontRays())[190], 6.0f);
   EXPECT_FLOAT_EQ(rhombic::FindDepths(Cube("other", 6), cuts, FrontRays())[190], -6.0f);
+}
+
+TEST(Hiding, NoRayPassesBetweenTriangles)
+{
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> angle(-3.0, 3.0);
+  for (int turn = 0; turn < 200; ++turn) // rays meet edges and corners of triangles, or pass them closely
+  {
+    Projection rays = FrontRays();
+    const double c = std::cos(angle(random)), s = std::sin(angle(random)), norm = std::hypot(c, s);
+    rays.frame.right = { c / norm, 0.0, s / norm };
+    rays.frame.up = { -s / norm, 0.0, c / norm };
+    rays.centre = turn % 2 == 0 ? Vector3{ 0.5, 0.0, 0.5 } : Vector3{ 0.0, 0.0, 0.0 };
+    const auto surface = itk::TriangleSurface::New(); // a square of 40 mm, with a point for each mm
+    constexpr std::uint32_t count = 41;
+    for (std::uint32_t n = 0; n < count * count; ++n)
+    {
+      surface->GetPoints().push_back(
+        { static_cast<float>(n % count) - 20.0f, 0.0f, static_cast<float>(n / count) - 20.0f });
+      if (n % count + 1 < count && n / count + 1 < count)
+      {
+        surface->GetTriangles().push_back({ n, n + 1, n + count + 1 });
+        surface->GetTriangles().push_back({ n, n + count + 1, n + count });
+      }
+    }
+    SceneSurface square;
+    square.surface = surface;
+    const auto depths = rhombic::FindDepths(square, {}, rays);
+    EXPECT_EQ(std::count(depths.begin(), depths.end(), nothing), 0) << turn;
+  }
 }
 
 TEST(Hiding, OpaqueSurfacesAroundOthersEncloseThem)

@@ -87,11 +87,16 @@ SeePoints(const itk::TriangleSurface & surface, const Projection & rays)
   return seen;
 }
 
-/** Twice the area of a triangle in the picture, with a sign. */
+/** Twice the area of the triangle of an edge and a ray in the picture, with a sign. The other
+ * direction of the edge has exactly the negated area: a ray never passes between two triangles. */
 float
-AreaOf(const SeenPoint & a, const SeenPoint & b, const SeenPoint & c)
+AreaBeside(const SeenPoint & from, const SeenPoint & to, const SeenPoint & ray)
 {
-  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+  if (to < from)
+  {
+    return -AreaBeside(to, from, ray);
+  }
+  return (to[0] - from[0]) * (ray[1] - from[1]) - (to[1] - from[1]) * (ray[0] - from[0]);
 }
 
 /** The pixels along an axis, first and last, whose centres lie within a triangle's extent. */
@@ -112,22 +117,19 @@ MeetTriangle(const std::array<SeenPoint, 3> & corners, const Projection & rays, 
   const auto [left, right] = PixelsAlong(0, corners, rays.width);
   const auto [top, bottom] = PixelsAlong(1, corners, rays.height);
   const auto & [a, b, c] = corners;
-  const float area = AreaOf(a, b, c);
-  if (left > right || top > bottom || area == 0.0f)
-  {
-    return;
-  }
   for (int y = top; y <= bottom; ++y)
   {
     for (int x = left; x <= right; ++x)
     {
       const SeenPoint ray{ static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 0.0f };
-      const float ofA = AreaOf(b, c, ray) / area;
-      const float ofB = AreaOf(c, a, ray) / area;
-      const float ofC = 1.0f - ofA - ofB;
-      if (ofA >= 0.0f && ofB >= 0.0f && ofC >= 0.0f)
+      const float ofA = AreaBeside(b, c, ray);
+      const float ofB = AreaBeside(c, a, ray);
+      const float ofC = AreaBeside(a, b, ray);
+      const float area = ofA + ofB + ofC;
+      const auto [least, most] = std::minmax({ ofA, ofB, ofC });
+      if (area != 0.0f && (least >= 0.0f || most <= 0.0f))
       {
-        meet(x, y, ofA * a[2] + ofB * b[2] + ofC * c[2]);
+        meet(x, y, (ofA * a[2] + ofB * b[2] + ofC * c[2]) / area);
       }
     }
   }
