@@ -5,6 +5,7 @@
 #include "rhombicScene.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -41,6 +42,14 @@ public:
    * memory runs out; Display when the graphics library reports an error. */
   std::vector<RenderedView>
   Render(const Scene & scene, const RenderSettings & settings, const std::vector<View> & views);
+
+  /** As Render(), but hands over each picture when it is drawn, on the calling thread: for many views whose pictures
+   * need not be in memory together. What \a take throws ends the drawing; \a take must not draw. */
+  void
+  Render(const Scene & scene,
+         const RenderSettings & settings,
+         const std::vector<View> & views,
+         const std::function<void(RenderedView)> & take);
 
   /** The pictures that Render() would make, without pixels: their projections, with a centre and pixel size that have
    * no meaning in perspective. Thread safe. Throws as Render() does for settings and surfaces. */

@@ -142,26 +142,28 @@ public:
   Canvas &
   operator=(const Canvas &) = delete;
 
-  std::vector<RenderedView>
-  Draw(const Scene & scene, const RenderSettings & settings, const std::vector<Camera> & cameras)
+  void
+  Draw(const Scene & scene,
+       const RenderSettings & settings,
+       const std::vector<Camera> & cameras,
+       const std::function<void(RenderedView)> & take)
   {
     const CaughtMessages messages;
     const auto current = MakeCurrent(m_Window);
     messages.CheckErrors(m_Window);
     const auto renderer = MakeRenderer(scene, settings);
     m_Window->AddRenderer(renderer);
-    std::vector<RenderedView> rendered;
     for (const Camera & camera : cameras)
     {
       m_Window->SetSize(camera.width, camera.height);
       SetCamera(camera, renderer);
       m_Window->Render();
-      rendered.push_back(
-        { ReadPicture(settings), settings.perspective ? std::nullopt : std::optional(camera.ToProjection()) });
+      RenderedView view{ ReadPicture(settings),
+                         settings.perspective ? std::nullopt : std::optional(camera.ToProjection()) };
       messages.CheckErrors(m_Window);
+      take(std::move(view));
     }
     m_Window->RemoveRenderer(renderer);
-    return rendered;
   }
 
   /** Backend, renderer and OpenGL version. */
@@ -230,6 +232,17 @@ SurfaceRenderer::~SurfaceRenderer()
 std::vector<RenderedView>
 SurfaceRenderer::Render(const Scene & scene, const RenderSettings & settings, const std::vector<View> & views)
 {
+  std::vector<RenderedView> rendered;
+  this->Render(scene, settings, views, [&rendered](RenderedView view) { rendered.push_back(std::move(view)); });
+  return rendered;
+}
+
+void
+SurfaceRenderer::Render(const Scene & scene,
+                        const RenderSettings & settings,
+                        const std::vector<View> & views,
+                        const std::function<void(RenderedView)> & take)
+{
   const auto turn = TakeTurn();
   try
   {
@@ -248,7 +261,7 @@ SurfaceRenderer::Render(const Scene & scene, const RenderSettings & settings, co
     }
     auto & first = m_Implementation->canvas;
     const auto canvas = first ? std::move(first) : std::make_unique<Canvas>(m_Implementation->backend);
-    return canvas->Draw(drawable, settings, cameras);
+    canvas->Draw(drawable, settings, cameras, take);
   }
   catch (const std::bad_alloc &)
   {
