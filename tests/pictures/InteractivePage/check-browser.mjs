@@ -34,7 +34,11 @@ async function open(file, { args = software, hash = '', tolerated = /^$/, ...opt
   await browser.close();
 }
 
-const drawn = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => setTimeout(() => requestAnimationFrame(done), 350))));
+const drawn = async (page) => {
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  await page.waitForFunction(() => document.body.dataset.layer !== '3d' || document.getElementById('canvas').dataset.triangles === 'all');
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+};
 
 /** The pixels of the 3D canvas, or of a picture's bytes; as text, since Chromium's protocol is slow with numbers. */
 const pixelsOf = (page, bytes) => page.evaluate(async (base64) => {

@@ -249,6 +249,7 @@ class Viewer {
     this.isResting = false;
     const start = performance.now();
     scene.draw(state, isFine);
+    scene.canvas.dataset.triangles = isFine ? 'all' : 'coarse';
     if (this.isSlow !== false) {
       scene.wait();
       const time = performance.now() - start;
