@@ -8,6 +8,7 @@
 #include "rhombicReadScan.h"
 #include "rhombicShapeFields.h"
 #include "rhombicTextTable.h"
+#include "rhombicWording.h"
 
 #include "itkFCCLattice.h"
 
@@ -24,6 +25,8 @@ struct Options
 {
   std::string scan;
   double threshold = 250.5;
+  std::string preset;
+  std::string labels;
   unsigned int size = 256;
   double density = itk::FCCLattice::NyquistDensity;
   std::vector<unsigned int> threads{ 1 };
@@ -69,6 +72,18 @@ MakeInput(const Options & options)
     input.isovalue = options.threshold;
   }
   return input;
+}
+
+/** Options of rhombic that say what a page shows. */
+std::vector<std::string>
+SourceOf(const Options & options)
+{
+  if (!options.labels.empty())
+  {
+    return { "--labels", options.labels };
+  }
+  return options.preset.empty() ? std::vector<std::string>{ "-t", FormatExact(options.threshold) }
+                                : std::vector<std::string>{ "--preset", options.preset };
 }
 
 nlohmann::json
@@ -199,6 +214,11 @@ Run(const Options & options)
       const auto more = MeasureLabelCommands(options.scan, settings);
       results.insert(results.end(), more.begin(), more.end());
     }
+    if (isNamed("pages"))
+    {
+      const auto more = MeasurePage(options.scan, SourceOf(options), settings);
+      results.insert(results.end(), more.begin(), more.end());
+    }
     measure("extraction", MeasureExtraction);
     measure("resampling", MeasureResampling);
     measure("pipeline", MeasurePipeline);
@@ -243,6 +263,8 @@ main(int argc, char ** argv)
   CLI::App app{ "Speed and memory of Rhombic beside VTK and ITK, in pairs run in turn", "rhombic-bench" };
   app.add_option("--scan", options.scan, "a DICOM folder or volume file, measured as int16 (default: a gyroid)");
   app.add_option("-t,--threshold", options.threshold, "isovalue in the scan")->capture_default_str();
+  app.add_option("--preset", options.preset, "what pages show in place of the isovalue");
+  app.add_option("--labels", options.labels, "a label map that pages show in place of the isovalue");
   app.add_option("--size", options.size, "samples along each axis of the gyroid")
     ->check(CLI::Range(16, 1024))
     ->capture_default_str();
@@ -262,6 +284,7 @@ main(int argc, char ** argv)
                             "reading",
                             "commands",
                             "labels",
+                            "pages",
                             "all" }))
     ->capture_default_str();
   app.add_option("--repeat", options.repeats, "pairs whose median is reported")

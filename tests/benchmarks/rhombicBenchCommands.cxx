@@ -12,7 +12,9 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <thread>
+#include <utility>
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -189,6 +191,21 @@ MakeTissues()
   return MakeThickMap(tissues, { { 1.0, 1.0, 1.0 }, { 207, 256, 215 } });
 }
 
+/** The first words of a command, and more of them. */
+Command
+Join(Command start, const Command & more)
+{
+  start.insert(start.end(), more.begin(), more.end());
+  return start;
+}
+
+/** The report beside an interactive page: what it weighs, and how far it was simplified. */
+nlohmann::json
+ReadWeight(const fs::path & page)
+{
+  return nlohmann::json::parse(std::ifstream(page.string() + ".json")).at("page");
+}
+
 fs::path
 FolderOfPrograms()
 {
@@ -227,8 +244,7 @@ MeasureLabelCommands(const std::string & map, const BenchSettings & settings)
   const Command start{ programs / "rhombic", "-q", "--threads", std::to_string(settings.threads) };
   std::vector<BenchResult> results;
   const auto compare = [&](const std::string & name, const fs::path & file, const Command & rest) {
-    Command ours = start;
-    ours.insert(ours.end(), rest.begin(), rest.end());
+    const Command ours = Join(start, rest);
     const Command bare{ programs / "rhombic-bare-label-script", file, folder / "bare" };
     results.push_back(CompareCommands("labels", name, ours, bare, settings));
   };
@@ -252,6 +268,73 @@ MeasureLabelCommands(const std::string & map, const BenchSettings & settings)
   }
   fs::remove_all(folder);
   return results;
+}
+
+std::vector<BenchResult>
+MeasurePage(const std::string & scan, const std::vector<std::string> & source, const BenchSettings & settings)
+{
+  constexpr double allowance = 1.5; // seconds
+  constexpr double share = 0.25;    // of the triangles, which a page keeps if it has room for them
+  constexpr double bytesOfMiB = 1024.0 * 1024.0;
+  const fs::path folder = MakeFolder();
+  const Command start{ FolderOfPrograms() / "rhombic", "-q", "--threads", std::to_string(settings.threads) };
+  const auto draw = [&](const Command & rest) { return Join(start, Join(Join({ "render", scan }, source), rest)); };
+  const fs::path file = folder / "ours/page.html";
+  const Command page = draw({ "-o", file });
+  BenchResult result;
+  result.section = "pages";
+  result.candidate = "page.html";
+  result.reference = "mesh, views, turntable, 1.5 s";
+  result.threads = settings.threads;
+  result.target = 1.0;
+  result.details["MiB"] = std::round(MeasurePeakMemory(page));
+  result.details["sheet MiB"] = std::round(MeasurePeakMemory(draw({ "--sheet", "-o", folder / "bare/sheet.pdf" })));
+  result.details["page MiB"] = std::round(10.0 * static_cast<double>(fs::file_size(file)) / bytesOfMiB) / 10.0;
+
+  const nlohmann::json weight = ReadWeight(file);
+  const double kept = weight.at("triangles").get<double>() / weight.at("trianglesBefore").get<double>();
+  const Command simplify{ "--max-error",
+                          FormatExact(weight.at("surfaceError_mm")),
+                          "--max-triangles",
+                          FormatFixed(100.0 * std::min(share, kept), 3) + "%",
+                          "-o",
+                          folder / "bare/mesh.glb" };
+  const std::pair<std::string, Command> parts[] = {
+    { "mesh s", Join(start, Join(Join({ "mesh", scan }, source), simplify)) },
+    { "views s",
+      draw({ "--view",
+             "anterior",
+             "--view",
+             "posterior",
+             "--view",
+             "left",
+             "--view",
+             "right",
+             "--size",
+             "640x640",
+             "--same-scale",
+             "-o",
+             folder / "bare/view.jpg" }) },
+    { "turntable s", draw({ "--turntable", "24", "--size", "440x440", "-o", folder / "bare/turn.jpg" }) }
+  };
+  std::map<std::string, std::vector<double>> timesOfParts;
+  for (unsigned int n = 0; n < settings.repeats; ++n)
+  {
+    result.times.candidate.push_back(TimeOf([&] { return RunCommand(page); }));
+    double sum = allowance;
+    for (const auto & [name, command] : parts)
+    {
+      timesOfParts[name].push_back(TimeOf([&command = command] { return RunCommand(command); }));
+      sum += timesOfParts[name].back();
+    }
+    result.times.reference.push_back(sum);
+  }
+  for (const auto & [name, times] : timesOfParts)
+  {
+    result.details[name] = std::round(100.0 * Median(times)) / 100.0;
+  }
+  fs::remove_all(folder);
+  return { result };
 }
 
 } // namespace rhombic

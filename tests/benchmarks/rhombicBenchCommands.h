@@ -23,6 +23,14 @@ MeasureCommands(const std::string & scan, double isovalue, const BenchSettings &
 std::vector<BenchResult>
 MeasureLabelCommands(const std::string & map, const BenchSettings & settings);
 
+/** Compares `rhombic render SCAN -o page.html` with the commands that make its parts: `rhombic mesh` with the page's
+ * simplification, `rhombic render` for four views and for a turntable of 24 pictures, of the page's sizes; 1.5 s are
+ * added for the rest. In `details` the median time of each part, the size of the page, and the peak memory of the page
+ * and of `rhombic render --sheet` in MiB. Throws Failure if a command fails.
+ * \param source options that say what is drawn, as --preset and a name */
+std::vector<BenchResult>
+MeasurePage(const std::string & scan, const std::vector<std::string> & source, const BenchSettings & settings);
+
 } // namespace rhombic
 
 #endif
