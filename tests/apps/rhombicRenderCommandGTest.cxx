@@ -8,6 +8,9 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace fs = std::filesystem;
 
@@ -294,6 +297,46 @@ TEST_F(RenderCommand, AReportOfBeforeMakesItsPictureAgain)
   RunWell("render " + phantomScan + " --from old.json -o second.png");
   EXPECT_EQ(Bytes("first.png"), Bytes("second.png"));
   EXPECT_FALSE(fs::exists(m_Folder.Path() / "second.dcm"));
+}
+
+/** Runs the program on one thread. Returns the most memory that it had, in MiB. */
+double
+FindPeakMemory(std::vector<std::string> arguments)
+{
+  const std::string program = RHOMBIC_PROGRAM_FOLDER "/rhombic";
+  arguments.insert(arguments.begin(), { program, "-q", "--threads", "1" });
+  std::vector<char *> words;
+  for (std::string & argument : arguments)
+  {
+    words.push_back(argument.data());
+  }
+  words.push_back(nullptr);
+  const pid_t child = fork();
+  if (child == 0)
+  {
+    execv(program.c_str(), words.data());
+    _exit(127);
+  }
+  int status = -1;
+  rusage usage{};
+  wait4(child, &status, 0, &usage);
+  EXPECT_EQ(status, 0);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+TEST_F(RenderCommand, InteractivePagesNeedNoMoreMemoryThanSheetsButForTheirSize)
+{
+  const std::vector<std::string> labels{ "render", phantomScan, "--labels", phantomLabels };
+  const auto draw = [&](const std::string & option, const fs::path & file) {
+    std::vector<std::string> arguments = labels;
+    arguments.insert(arguments.end(), { option, "-o", file });
+    return FindPeakMemory(arguments);
+  };
+  constexpr double ofMorePictures = 6.0; // MiB, which OpenGL's compiler keeps: a page has 28 pictures of 3D, a sheet 4
+  const double ofSheet = draw("--sheet", m_Folder.Path() / "sheet.pdf");
+  const double ofPage = draw("--no-sidecar", m_Folder.Path() / "page.html");
+  const double sizeOfPage = static_cast<double>(fs::file_size(m_Folder.Path() / "page.html")) / (1024.0 * 1024.0);
+  EXPECT_LT(ofPage, ofSheet + sizeOfPage + ofMorePictures);
 }
 
 TEST_F(RenderCommand, PagesListAllLabelsWithTheirVolumes)

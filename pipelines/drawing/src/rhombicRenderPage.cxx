@@ -3,6 +3,7 @@
 #include "rhombicFailure.h"
 #include "rhombicGreyWindow.h"
 #include "rhombicInteractivePage.h"
+#include "rhombicPictureIO.h"
 #include "rhombicPictureSteps.h"
 #include "rhombicSilhouette.h"
 #include "rhombicSurfaceRenderer.h"
@@ -78,10 +79,10 @@ DrawTurntable(const RenderPageSettings & settings,
   RenderSettings render = SettingsOf(settings, SideOfTurntable);
   render.ambientOcclusion = !source.scale;
   render.centre = CentreOf(BoxAround(source.surfaces));
-  for (RenderedView & view : renderer.Render(scene, render, turn))
-  {
-    page.turntable.push_back(std::move(view.picture));
-  }
+  constexpr int quality = 78;
+  renderer.Render(scene, render, turn, [&page](const RenderedView & view) {
+    page.turntable.push_back(EncodeJpeg(view.picture, quality, true));
+  });
 }
 
 /** The planes of the still slices: those asked for, or three through the middle. */
@@ -176,7 +177,7 @@ ContentOf(const RenderPageSettings & settings, const PictureScene & scene)
   }
   if (settings.hasSlices && scene.scan)
   {
-    page.scan = &*scene.scan;
+    page.scan = scene.scan;
     page.box = BoxOf(*scene.scan);
     page.window = WindowFromText(settings.slice.window, *scene.scan);
   }
@@ -194,7 +195,7 @@ ContentOf(const RenderPageSettings & settings, const PictureScene & scene)
       page.table->rows.push_back({ row.name, row.colour, row.figures });
     }
   }
-  page.facts.push_back(DescribePrivacy(scene, page.scan != nullptr));
+  page.facts.push_back(DescribePrivacy(scene, page.scan.has_value()));
   return page;
 }
 
@@ -278,6 +279,7 @@ StageScenePage(const RenderPageSettings & settings,
   DrawPictures(settings, scene, renderer, events, content);
   const Picture first = content.views.front().picture; // for a thumbnail
   scene.surfaces = scene.drawnAsLines = {};
+  scene.scan.reset();
   const MadePage page = MakeInteractivePage(std::move(content), events);
   for (const std::string & note : page.weight.notes)
   {

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -142,10 +143,10 @@ MakeContent(const Scan * scan)
   content.surfaces.push_back({ Named("</script><b>\"'&", itk::example::MakeSphere(30.0, 3)), "", 12.5, 3.0, {} });
   content.surfaces.push_back({ Named("\xd7\x9b\xd7\x91\xd7\x93", itk::example::MakeSphere(10.0, 2)), "", {}, {}, {} });
   content.views.push_back({ Picture(40, 30), "anterior" });
-  content.turntable.assign(3, Picture(20, 20));
+  content.turntable.assign(3, "a JPEG file");
   if (scan != nullptr)
   {
-    content.scan = scan;
+    content.scan = *scan;
     content.box = BoxOf(*scan);
   }
   return content;
@@ -272,7 +273,7 @@ TEST(InteractivePage, SurfacesWithValuesAreSimplifiedBesideEachOther)
   EXPECT_LE(mesh.triangles, before / 10);
   EXPECT_LE(mesh.measuredError, 1.0);
   ASSERT_EQ(mesh.sheets.size(), 2u);
-  EXPECT_EQ(mesh.sheets[0].triangles, mesh.sheets[1].triangles);
+  EXPECT_NEAR(static_cast<double>(mesh.sheets[0].triangles), static_cast<double>(mesh.sheets[1].triangles), 50.0);
   EXPECT_EQ(Decode(mesh).numbers, std::vector<std::uint16_t>(mesh.points, 128));
 }
 
@@ -409,6 +410,28 @@ TEST(InteractivePage, ASmallPageSaysWhatIsReduced)
   EXPECT_GT(least.valueError, whole.valueError);
   ASSERT_EQ(least.notes.size(), 3u);
   EXPECT_NE(least.notes[2].find("more than the 0.001 MB"), std::string::npos) << least.notes[2];
+}
+
+TEST(InteractivePage, SmallPagesHaveFewerPicturesToTurn)
+{
+  PageContent content = MakeContent(nullptr);
+  content.turntable.clear();
+  for (int n = 0; n < 24; ++n)
+  {
+    content.turntable.push_back(std::string(30'000, static_cast<char>('a' + n)));
+  }
+  for (const auto & [size, turns] :
+       std::map<std::uintmax_t, int>{ { 8'000'000, 24 }, { 1'000'000, 12 }, { 400'000, 6 } })
+  {
+    content.largestSize = size;
+    const MadePage page = MakeInteractivePage(content, {});
+    EXPECT_EQ(nlohmann::json::parse(JsonOf(page.html))["turntable"], turns);
+    EXPECT_EQ(page.weight.notes.size(), turns == 24 ? 1u : 2u);
+    EXPECT_LE(page.html.size(), size);
+    const std::string last = ToBase64(std::string(30'000, static_cast<char>('a' + 24 - 24 / turns)));
+    EXPECT_NE(page.html.find("id=\"turn-" + std::to_string(turns - 1) + "\">" + last), std::string::npos);
+    EXPECT_EQ(page.html.find("id=\"turn-" + std::to_string(turns)), std::string::npos);
+  }
 }
 
 TEST(InteractivePage, APageNeedsASurface)

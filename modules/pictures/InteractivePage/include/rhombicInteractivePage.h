@@ -59,14 +59,14 @@ struct PageContent
   std::vector<std::string> facts; ///< lines about scan and method; a colon ends the name of a value
   std::vector<PageSurface> surfaces;
   std::optional<PageTable> table; ///< in place of that of the surfaces
-  const Scan * scan = nullptr;    ///< for slices; null: none
+  std::optional<Scan> scan;       ///< for slices
   SliceBox box;                   ///< of the scan
   GreyWindow window;              ///< in which slices are shown first
   std::string unit;               ///< of the scan's values: "HU"; empty if unknown
   bool isOriented = true;         ///< whether sides of the patient are known; without, there are no letters
   std::vector<StillPicture> views;
   std::vector<StillPicture> slices;
-  std::vector<Picture> turntable;         ///< views around the patient, from the front towards the patient's left
+  std::vector<std::string> turntable;     ///< JPEG files: views around the patient, from the front towards the left
   std::uintmax_t largestSize = 8'000'000; ///< bytes of the page that simplification aims at
 
   /** Of SceneSurface::pointValues, which give the colours of the surfaces that have them; with a bar. */

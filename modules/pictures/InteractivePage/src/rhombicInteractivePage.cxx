@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace rhombic
 {
@@ -33,10 +34,13 @@ struct SliceCoding
 
 constexpr SliceCoding SliceCodings[] = { { 1, 1, 0.25 }, { 2, 1, 0.1 }, { 4, 1, 0.05 }, { 4, 2, 0.02 }, { 4, 4, 0.0 } };
 
+constexpr double ShareOfPictures = 0.7; // of the page's size, at most; else there are fewer views around the patient
+constexpr std::size_t FewestTurns = 6;
 constexpr double ShareOfTriangles = 0.25; // more are hardly seen
 constexpr double ErrorForShare = 0.1;     // mm
 constexpr double LargestError = 3.2;      // mm
 constexpr std::size_t FewestTriangles = 100;
+constexpr std::uintmax_t SizeOfNotes = 1000;  // bytes, what the page says of its reduction
 constexpr double BytesOfTriangle = 3.4;       // in base64; surfaces with many triangles need 3.3
 constexpr double BytesOfValuedTriangle = 4.2; // where points have values
 
@@ -211,7 +215,8 @@ struct FixedParts
   std::string table;
   std::string turntable; ///< data blocks
   std::size_t turns = 0; ///< number of them
-  Json surfaces;         ///< what the script has to know of them
+  std::size_t turnsBefore = 0;
+  Json surfaces; ///< what the script has to know of them
 };
 
 /** Parts of a page that are made as small as it needs. */
@@ -224,22 +229,44 @@ struct ReducedParts
   std::size_t numberOfSliceBlocks = 0;
 };
 
+bool
+HasSlices(const PageVolume & volume)
+{
+  return volume.size[0] > 0;
+}
+
 /** Takes the pictures of the content, which are not needed after that. */
 FixedParts
 MakeFixedParts(PageContent & content)
 {
-  constexpr int quality = 78;
   FixedParts parts;
   parts.pictures = FiguresOf(content.views, "view") + FiguresOf(content.slices, "slice");
   parts.table = WriteTable(content.table ? *content.table : MeasuresOf(content));
   parts.surfaces = DescribeSurfaces(content);
-  for (const Picture & picture : content.turntable)
+  std::vector<std::string> & turns = content.turntable;
+  const auto sizeOf = [](const std::vector<std::string> & pictures) {
+    return std::accumulate(pictures.begin(), pictures.end(), 0.0, [](double sum, const std::string & picture) {
+      return sum + 4.0 / 3.0 * static_cast<double>(picture.size()); // in base64
+    });
+  };
+  const double room =
+    ShareOfPictures * static_cast<double>(content.largestSize) - static_cast<double>(parts.pictures.size());
+  parts.turnsBefore = turns.size();
+  while (sizeOf(turns) > room && turns.size() % 2 == 0 && turns.size() / 2 >= FewestTurns)
   {
-    parts.turntable += DataBlock("turn-" + std::to_string(parts.turns), EncodeJpeg(picture, quality, true));
-    ++parts.turns;
+    for (std::size_t n = 0; 2 * n < turns.size(); ++n)
+    {
+      turns[n].swap(turns[2 * n]);
+    }
+    turns.resize(turns.size() / 2);
   }
+  parts.turns = turns.size();
+  for (std::size_t n = 0; n < turns.size(); ++n)
+  {
+    parts.turntable += DataBlock("turn-" + std::to_string(n), turns[n]);
+  }
+  turns = {};
   content.views = content.slices = {};
-  content.turntable = {};
   return parts;
 }
 
@@ -256,8 +283,8 @@ MakerOf(PageContent & content)
   return PageMeshMaker(surfaces, content.scale);
 }
 
-/** Simplifies surfaces once for the room that they have, and goes on with larger errors only where that is too little.
- */
+/** Simplifies surfaces once for the room that they have, and goes on with larger errors only where that is too little:
+ * slightly larger where as many triangles as hoped for need more bytes than hoped for. */
 void
 CodeSurfaces(std::uintmax_t room,
              double bytesOfTriangle,
@@ -267,19 +294,21 @@ CodeSurfaces(std::uintmax_t room,
 {
   const auto triangles = static_cast<double>(maker.GetNumberOfTriangles());
   double target = std::min(static_cast<double>(room) / bytesOfTriangle, ShareOfTriangles * triangles);
-  for (double error = ErrorForShare; error <= LargestError; error *= 2.0)
+  bool isReached = false;
+  for (double error = ErrorForShare; error <= LargestError || isReached;
+       error = isReached ? std::round(10.0 * error + 1.0) / 10.0 : 2.0 * error)
   {
-    maker.Simplify(std::max(FewestTriangles, static_cast<std::size_t>(target)), error, [&events](double done) {
-      events.Progress("simplifying surfaces", done);
-    });
+    const std::size_t wanted = std::max(FewestTriangles, static_cast<std::size_t>(target));
+    maker.Simplify(wanted, error, [&events](double done) { events.Progress("simplifying surfaces", done); });
     events.Progress("coding surfaces", 0.0);
     parts.mesh = maker.Make();
     parts.surfaceBlocks = DataBlock("points", parts.mesh.pointBytes) + DataBlock("triangles", parts.mesh.triangleBytes);
-    const auto taken = static_cast<double>(parts.surfaceBlocks.size());
+    const auto taken = static_cast<double>(parts.surfaceBlocks.size() + DescribeMesh(parts.mesh).dump().size());
     if (taken <= static_cast<double>(room) || !parts.mesh.refusal.empty())
     {
       return;
     }
+    isReached = parts.mesh.triangles <= wanted && wanted > FewestTriangles;
     constexpr double safety = 0.98; // fewer triangles need more bytes each
     target = safety * static_cast<double>(room) / taken * static_cast<double>(parts.mesh.triangles);
   }
@@ -299,7 +328,10 @@ CodeSlices(PageVolume volume, ReducedParts & parts)
 }
 
 std::vector<std::string>
-DescribeReduction(const PageWeight & weight, const PageContent & content, const ReducedParts & parts)
+DescribeReduction(const PageWeight & weight,
+                  const PageContent & content,
+                  const FixedParts & fixed,
+                  const ReducedParts & parts)
 {
   const std::string unit = content.unit.empty() ? "" : " " + content.unit;
   std::vector<std::string> notes;
@@ -320,7 +352,7 @@ DescribeReduction(const PageWeight & weight, const PageContent & content, const 
     notes.push_back("surfaces: not simplified, as they are no manifold; " + std::to_string(weight.triangles) +
                     " triangles");
   }
-  if (content.scan != nullptr)
+  if (HasSlices(parts.volume))
   {
     notes.push_back("slices: " + FormatProduct(weight.grid) + " samples of " + FormatProduct(weight.spacing, 3) +
                     " mm" + (parts.volume.isResampled ? ", resampled from slices that lie otherwise" : "") +
@@ -328,6 +360,11 @@ DescribeReduction(const PageWeight & weight, const PageContent & content, const 
                     (content.unit == "HU" ? " from -200 to 300 HU, by more elsewhere" : "") + ", those below " +
                     FormatNumber(weight.lowest, 5) + " and above " + FormatNumber(weight.highest, 5) + unit +
                     " are not told apart");
+  }
+  if (fixed.turns < fixed.turnsBefore)
+  {
+    notes.push_back("turntable: " + std::to_string(fixed.turns) + " of " + std::to_string(fixed.turnsBefore) +
+                    " pictures");
   }
   if (weight.size > content.largestSize)
   {
@@ -338,7 +375,7 @@ DescribeReduction(const PageWeight & weight, const PageContent & content, const 
 }
 
 PageWeight
-WeightOf(const PageContent & content, const FixedParts & fixed, const ReducedParts & parts)
+WeightOf(const FixedParts & fixed, const ReducedParts & parts)
 {
   PageWeight weight;
   weight.sizeOfSurfaces = parts.surfaceBlocks.size();
@@ -349,7 +386,7 @@ WeightOf(const PageContent & content, const FixedParts & fixed, const ReducedPar
   weight.surfaceError = parts.mesh.error;
   weight.measuredError = parts.mesh.measuredError;
   weight.quantum = parts.mesh.quantum;
-  if (content.scan != nullptr)
+  if (HasSlices(parts.volume))
   {
     weight.grid = parts.volume.size;
     weight.spacing = parts.volume.spacing;
@@ -394,7 +431,7 @@ FillPage(const PageContent & content,
   {
     data["colours"] = DescribeColours(*content.scale);
   }
-  if (content.scan != nullptr)
+  if (HasSlices(parts.volume))
   {
     data["volume"] = DescribeVolume(parts.volume, content, parts.numberOfSliceBlocks);
   }
@@ -425,21 +462,20 @@ MakeInteractivePage(PageContent content, const Events & events)
   events.Progress("coding pictures", 0.0);
   const FixedParts fixed = MakeFixedParts(content);
   events.Progress("sampling slices", 0.0);
-  const PageVolume volume = content.scan != nullptr ? MakePageVolume(*content.scan, content.box) : PageVolume();
+  const PageVolume volume = content.scan ? MakePageVolume(*content.scan, content.box) : PageVolume();
+  content.scan.reset(); // its memory is needed for the surfaces
   PageMeshMaker maker = MakerOf(content);
   ReducedParts parts;
-  const std::uintmax_t fixedSize =
-    std::size(PageScript) + std::size(PageStyle) + fixed.table.size() + fixed.pictures.size() + fixed.turntable.size();
   const double bytesOfTriangle = content.scale ? BytesOfValuedTriangle : BytesOfTriangle;
   std::uintmax_t room = 0;
   for (const SliceCoding & coding : SliceCodings)
   {
-    if (content.scan != nullptr)
+    if (HasSlices(volume))
     {
       events.Progress("coding slices", 0.0);
       CodeSlices(Coarsen(volume, coding.levelFactor, coding.sliceStep), parts);
     }
-    const std::uintmax_t taken = fixedSize + parts.sliceBlocks.size();
+    const std::uintmax_t taken = FillPage(content, fixed, parts, {}).size() + SizeOfNotes;
     room = content.largestSize > taken ? content.largestSize - taken : 0;
     if (static_cast<double>(room) >=
         bytesOfTriangle * coding.leastShare * static_cast<double>(maker.GetNumberOfTriangles()))
@@ -449,9 +485,9 @@ MakeInteractivePage(PageContent content, const Events & events)
   }
   CodeSurfaces(room, bytesOfTriangle, events, maker, parts);
   MadePage page;
-  page.weight = WeightOf(content, fixed, parts);
-  page.weight.size = fixedSize + parts.sliceBlocks.size() + parts.surfaceBlocks.size();
-  page.weight.notes = DescribeReduction(page.weight, content, parts);
+  page.weight = WeightOf(fixed, parts);
+  page.weight.size = FillPage(content, fixed, parts, {}).size();
+  page.weight.notes = DescribeReduction(page.weight, content, fixed, parts);
   page.html = FillPage(content, fixed, parts, page.weight.notes);
   page.weight.size = page.html.size();
   return page;

@@ -23,6 +23,8 @@ using Surface = itk::TriangleSurface;
 using Sides = std::array<std::uint32_t, 2>;
 using Position = std::array<std::uint16_t, 4>; // meshoptimizer codes multiples of 4 bytes
 
+constexpr double LeastOfShare = 0.5; // of a sheet, where others kept more
+
 /** Adds points and triangles of a surface to others. */
 void
 Append(const Surface & surface, Surface & joined)
@@ -50,8 +52,9 @@ AppendSurfaces(const std::vector<SceneSurface> & surfaces)
   return joined;
 }
 
-/** Simplifies sheets that have no points in common, each on its own to the same share of its triangles: they may lie in
- * the same place, as walls of neighbours do, where one could not change beside the other. */
+/** Simplifies sheets that have no points in common, each on its own: they may lie in the same place, as walls of
+ * neighbours do, where one could not change beside the other. Each is simplified to the same share of its triangles, or
+ * to a smaller one where those before it kept more. */
 void
 SimplifyApart(Surface & surface,
               std::vector<std::uint32_t> & sheets,
@@ -60,7 +63,8 @@ SimplifyApart(Surface & surface,
               double error,
               const ProgressFunction & report)
 {
-  const double share = static_cast<double>(triangles) / static_cast<double>(sheets.size());
+  auto wanted = static_cast<double>(triangles); // of this and the following sheets
+  auto remaining = static_cast<double>(sheets.size());
   std::vector<Surface::Pointer> parts;
   for (std::size_t n = 0; n < numberOfSheets; ++n)
   {
@@ -74,10 +78,16 @@ SimplifyApart(Surface & surface,
       }
     }
     parts.back()->RemoveUnusedPoints();
-    const auto target = static_cast<std::size_t>(share * static_cast<double>(parts.back()->GetNumberOfTriangles()));
+    const auto before = static_cast<double>(parts.back()->GetNumberOfTriangles());
+    const double target =
+      std::max(LeastOfShare * static_cast<double>(triangles) / static_cast<double>(sheets.size()), wanted / remaining) *
+      before;
     // Surfaces of labels may meet themselves at edges and points, as sheets may, but not those of sheet 0 alone.
     std::vector<std::uint32_t> sheet(parts.back()->GetNumberOfTriangles(), 1);
-    SimplifyTriangleSurface(*parts.back(), sheet, { std::max<std::size_t>(1, target), error });
+    SimplifyTriangleSurface(
+      *parts.back(), sheet, { std::max<std::size_t>(1, static_cast<std::size_t>(target)), error });
+    wanted -= static_cast<double>(parts.back()->GetNumberOfTriangles());
+    remaining -= before;
     if (report)
     {
       report(static_cast<double>(n + 1) / static_cast<double>(numberOfSheets));
@@ -255,7 +265,7 @@ PageMeshMaker::Simplify(std::size_t triangles, double error, const ProgressFunct
   try
   {
     const double further = error - m_Error; // distances add up
-    if (m_Scale)
+    if (this->AreApart())
     {
       SimplifyApart(*m_Surface, m_Sheets, m_Sides.size(), triangles, further, report);
     }

@@ -6,6 +6,7 @@
 #include "rhombicSceneSurface.h"
 #include "rhombicVector3.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -64,6 +65,13 @@ public:
   Make() const;
 
 private:
+  /** Whether no triangle belongs to two surfaces. */
+  bool
+  AreApart() const
+  {
+    return std::all_of(m_Sides.begin(), m_Sides.end(), [](const auto & sides) { return sides[1] == 0; });
+  }
+
   /** The numbers of the values of points of the simplified surface: those of the nearest points before. */
   std::vector<std::uint16_t>
   NumberValues() const;
