@@ -299,12 +299,12 @@ TEST_F(RenderCommand, AReportOfBeforeMakesItsPictureAgain)
   EXPECT_FALSE(fs::exists(m_Folder.Path() / "second.dcm"));
 }
 
-/** Runs the program on one thread. Returns the most memory that it had, in MiB. */
+/** Runs the program on two threads. Returns the most memory that it had, in MiB. */
 double
 FindPeakMemory(std::vector<std::string> arguments)
 {
   const std::string program = RHOMBIC_PROGRAM_FOLDER "/rhombic";
-  arguments.insert(arguments.begin(), { program, "-q", "--threads", "1" });
+  arguments.insert(arguments.begin(), { program, "-q", "--threads", "2" });
   std::vector<char *> words;
   for (std::string & argument : arguments)
   {

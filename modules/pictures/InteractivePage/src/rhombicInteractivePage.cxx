@@ -15,6 +15,10 @@
 #include <map>
 #include <numeric>
 
+#ifdef __GLIBC__
+#  include <malloc.h>
+#endif
+
 namespace rhombic
 {
 namespace
@@ -283,6 +287,15 @@ MakerOf(PageContent & content)
   return PageMeshMaker(surfaces, content.scale);
 }
 
+/** Gives freed memory back to the system, as it lies in pieces too small for what comes next. */
+void
+GiveBackFreedMemory()
+{
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
 /** Simplifies surfaces once for the room that they have, and goes on with larger errors only where that is too little:
  * slightly larger where as many triangles as hoped for need more bytes than hoped for. */
 void
@@ -299,8 +312,10 @@ CodeSurfaces(std::uintmax_t room,
        error = isReached ? std::round(10.0 * error + 1.0) / 10.0 : 2.0 * error)
   {
     const std::size_t wanted = std::max(FewestTriangles, static_cast<std::size_t>(target));
+    GiveBackFreedMemory();
     maker.Simplify(wanted, error, [&events](double done) { events.Progress("simplifying surfaces", done); });
     events.Progress("coding surfaces", 0.0);
+    GiveBackFreedMemory();
     parts.mesh = maker.Make();
     parts.surfaceBlocks = DataBlock("points", parts.mesh.pointBytes) + DataBlock("triangles", parts.mesh.triangleBytes);
     const auto taken = static_cast<double>(parts.surfaceBlocks.size() + DescribeMesh(parts.mesh).dump().size());
