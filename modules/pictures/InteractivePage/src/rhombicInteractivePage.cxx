@@ -340,6 +340,7 @@ CodeSlices(PageVolume volume, ReducedParts & parts)
   {
     parts.sliceBlocks += DataBlock("slices-" + std::to_string(n), blocks[n]);
   }
+  parts.volume.numbers = {};
 }
 
 std::vector<std::string>
@@ -477,7 +478,7 @@ MakeInteractivePage(PageContent content, const Events & events)
   events.Progress("coding pictures", 0.0);
   const FixedParts fixed = MakeFixedParts(content);
   events.Progress("sampling slices", 0.0);
-  const PageVolume volume = content.scan ? MakePageVolume(*content.scan, content.box) : PageVolume();
+  PageVolume volume = content.scan ? MakePageVolume(*content.scan, content.box) : PageVolume();
   content.scan.reset(); // its memory is needed for the surfaces
   PageMeshMaker maker = MakerOf(content);
   ReducedParts parts;
@@ -498,6 +499,7 @@ MakeInteractivePage(PageContent content, const Events & events)
       break;
     }
   }
+  volume = {};
   CodeSurfaces(room, bytesOfTriangle, events, maker, parts);
   MadePage page;
   page.weight = WeightOf(fixed, parts);
