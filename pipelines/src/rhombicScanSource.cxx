@@ -2,11 +2,12 @@
 
 #include "itkNativeScanFileReader.h"
 #include "rhombicAtomicFile.h"
+#include "rhombicEvents.h"
 #include "rhombicFailure.h"
+#include "rhombicForEachBlock.h"
 #include "rhombicLabelDoubts.h"
 #include "rhombicMappedVoxels.h"
-#include "rhombicEvents.h"
-#include "rhombicForEachBlock.h"
+#include "rhombicMemoryBudget.h"
 #include "rhombicPatientAxes.h"
 #include "rhombicWording.h"
 
@@ -15,10 +16,6 @@
 #include <numeric>
 #include <set>
 #include <tuple>
-
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 namespace fs = std::filesystem;
 
@@ -343,9 +340,7 @@ LoadedSource::DropVolumes()
   lattice = FCCVolume();
   stream = {};
   labels.reset();
-#ifdef __GLIBC__
-  malloc_trim(0);
-#endif
+  GiveBackFreedMemory();
 }
 
 LoadedSource

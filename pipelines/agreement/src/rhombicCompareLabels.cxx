@@ -5,6 +5,7 @@
 #include "rhombicComparedSide.h"
 #include "rhombicFailure.h"
 #include "rhombicLabelParts.h"
+#include "rhombicMemoryBudget.h"
 #include "rhombicSceneRules.h"
 #include "rhombicSurfaceMeasures.h"
 #include "rhombicVoxelMetrics.h"
@@ -453,7 +454,7 @@ public:
   }
 
 private:
-  /** Frees the voxels; what is needed of them is known. */
+  /** Frees the voxels; what is needed of them is known. What making the walls has freed goes back to the system. */
   static void
   DropMap(ComparedSide & side)
   {
@@ -461,6 +462,7 @@ private:
     {
       side.map->scan = WithoutVoxels(side.map->scan);
     }
+    GiveBackFreedMemory();
   }
 
   void

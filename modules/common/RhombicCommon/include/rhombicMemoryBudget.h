@@ -29,6 +29,11 @@ MemoryAllowance(std::uintmax_t limit);
 void
 RequireMemory(std::uintmax_t bytes, std::uintmax_t limit, const std::string & what, const std::string & advice = {});
 
+/** Gives memory that was freed back to the system, where the C library can: after work whose memory is free in pieces
+ * too small for the work that comes next. Takes milliseconds. */
+void
+GiveBackFreedMemory();
+
 /** Bytes as a person reads them: "1.5 GiB", the same in every locale. */
 std::string
 DescribeBytes(std::uintmax_t bytes);

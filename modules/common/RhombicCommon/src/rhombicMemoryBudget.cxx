@@ -14,6 +14,10 @@
 #include <optional>
 #include <vector>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace rhombic
 {
 
@@ -192,6 +196,14 @@ RequireMemory(std::uintmax_t bytes, std::uintmax_t limit, const std::string & wh
                     " that are allowed; allow more with maximumMemory = " + std::to_string(gibibytes) + "G" +
                     (advice.empty() ? "" : ", or " + advice) + ".");
   }
+}
+
+void
+GiveBackFreedMemory()
+{
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 
 std::string

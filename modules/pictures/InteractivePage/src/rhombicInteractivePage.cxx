@@ -1,6 +1,7 @@
 #include "rhombicInteractivePage.h"
 
 #include "rhombicFailure.h"
+#include "rhombicMemoryBudget.h"
 #include "rhombicPageBytes.h"
 #include "rhombicPageMesh.h"
 #include "rhombicPageResources.h"
@@ -14,10 +15,6 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-
-#ifdef __GLIBC__
-#  include <malloc.h>
-#endif
 
 namespace rhombic
 {
@@ -285,15 +282,6 @@ MakerOf(PageContent & content)
   }
   content.surfaces.clear();
   return PageMeshMaker(surfaces, content.scale);
-}
-
-/** Gives freed memory back to the system, as it lies in pieces too small for what comes next. */
-void
-GiveBackFreedMemory()
-{
-#ifdef __GLIBC__
-  malloc_trim(0);
-#endif
 }
 
 /** Simplifies surfaces once for the room that they have, and goes on with larger errors only where that is too little:
