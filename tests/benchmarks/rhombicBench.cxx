@@ -27,6 +27,8 @@ struct Options
   double threshold = 250.5;
   std::string preset;
   std::string labels;
+  unsigned int scaleSize = 512;
+  std::string limit = "128M";
   unsigned int size = 256;
   double density = itk::FCCLattice::NyquistDensity;
   std::vector<unsigned int> threads{ 1 };
@@ -219,6 +221,11 @@ Run(const Options & options)
       const auto more = MeasurePage(options.scan, SourceOf(options), settings);
       results.insert(results.end(), more.begin(), more.end());
     }
+    if (isNamed("scale"))
+    {
+      const auto more = MeasureScale(options.scaleSize, options.limit, settings);
+      results.insert(results.end(), more.begin(), more.end());
+    }
     measure("extraction", MeasureExtraction);
     measure("resampling", MeasureResampling);
     measure("pipeline", MeasurePipeline);
@@ -265,6 +272,10 @@ main(int argc, char ** argv)
   app.add_option("-t,--threshold", options.threshold, "isovalue in the scan")->capture_default_str();
   app.add_option("--preset", options.preset, "what pages show in place of the isovalue");
   app.add_option("--labels", options.labels, "a label map that pages show in place of the isovalue");
+  app.add_option("--scale-size", options.scaleSize, "voxels along each axis of the volume of scale")
+    ->check(CLI::Range(128, 4096))
+    ->capture_default_str();
+  app.add_option("--limit", options.limit, "--max-memory of scale")->capture_default_str();
   app.add_option("--size", options.size, "samples along each axis of the gyroid")
     ->check(CLI::Range(16, 1024))
     ->capture_default_str();
@@ -285,6 +296,7 @@ main(int argc, char ** argv)
                             "commands",
                             "labels",
                             "pages",
+                            "scale",
                             "all" }))
     ->capture_default_str();
   app.add_option("--repeat", options.repeats, "pairs whose median is reported")

@@ -78,9 +78,10 @@ RunCommand(const Command & command)
   return status;
 }
 
-/** Proportional memory of all processes of a group in MiB: pages that several of them share count once. */
+/** Memory of all processes of a group in MiB.
+ * \param kind "Pss:", in which pages that several processes share count once, or "Pss_Anon:", without pages of files */
 double
-GetGroupMemory(pid_t group)
+GetGroupMemory(pid_t group, const std::string & kind)
 {
   double sum = 0.0;
   std::error_code error;
@@ -95,7 +96,7 @@ GetGroupMemory(pid_t group)
     std::ifstream memory(entry.path() / "smaps_rollup");
     for (std::string word; memory >> word;)
     {
-      if (double kilobytes = 0.0; word == "Pss:" && memory >> kilobytes)
+      if (double kilobytes = 0.0; word == kind && memory >> kilobytes)
       {
         sum += kilobytes / 1024.0;
       }
@@ -106,14 +107,14 @@ GetGroupMemory(pid_t group)
 
 /** Peak memory of a command with its child processes in MiB, looked at every 10 ms. */
 double
-MeasurePeakMemory(const Command & command)
+MeasurePeakMemory(const Command & command, const std::string & kind = "Pss:")
 {
   const pid_t process = Start(command);
   double peak = 0.0;
   int status = 0;
   while (waitpid(process, &status, WNOHANG) == 0)
   {
-    peak = std::max(peak, GetGroupMemory(process));
+    peak = std::max(peak, GetGroupMemory(process, kind));
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   CheckStatus(command, status);
@@ -204,6 +205,54 @@ nlohmann::json
 ReadWeight(const fs::path & page)
 {
   return nlohmann::json::parse(std::ifstream(page.string() + ".json")).at("page");
+}
+
+/** Writes balls as a raw volume of uint16 with a header, slice by slice: 128 voxels of 5 micrometres from ball to ball,
+ * radius 40 voxels, values falling by 200 a voxel outwards, 20000 at the surface. Returns the balls' volume in mm^3. */
+double
+WriteBalls(unsigned int size, const fs::path & header)
+{
+  constexpr double spacing = 0.005; // mm
+  constexpr unsigned int pitch = 128;
+  constexpr double radius = 40.0;
+  fs::path voxels = header;
+  voxels.replace_extension(".raw");
+  const std::string count = std::to_string(size);
+  std::ofstream(header) << "ObjectType = Image\nNDims = 3\nDimSize = " << count << ' ' << count << ' ' << count
+                        << "\nElementSpacing = 0.005 0.005 0.005\nElementType = MET_USHORT\nBinaryData = True\n"
+                           "BinaryDataByteOrderMSB = False\nElementDataFile = "
+                        << voxels.filename().string() << '\n';
+  std::ofstream file(voxels, std::ios::binary);
+  std::vector<std::uint16_t> row(size);
+  const auto fromMiddle = [](unsigned int index) {
+    return index % pitch - 0.5 * pitch + 0.3;
+  }; // of the ball, in voxels
+  for (unsigned int z = 0; z < size; ++z)
+  {
+    for (unsigned int y = 0; y < size; ++y)
+    {
+      const double beside = std::hypot(fromMiddle(y), fromMiddle(z));
+      for (unsigned int x = 0; x < size; ++x)
+      {
+        const double depth = radius - std::hypot(beside, fromMiddle(x));
+        row[x] = static_cast<std::uint16_t>(std::lround(20000.0 + 200.0 * depth));
+      }
+      file.write(reinterpret_cast<const char *>(row.data()), static_cast<std::streamsize>(2 * row.size()));
+    }
+  }
+  file.close();
+  if (!file)
+  {
+    throw Failure(FailureKind::Output, voxels.string() + " can't be written; is the disk full?");
+  }
+  return std::pow(size / pitch, 3) * 4.0 / 3.0 * itk::Math::pi * std::pow(radius * spacing, 3);
+}
+
+bool
+HaveSameBytes(const fs::path & first, const fs::path & second)
+{
+  std::ifstream a(first, std::ios::binary), b(second, std::ios::binary);
+  return std::equal(std::istreambuf_iterator<char>(a), {}, std::istreambuf_iterator<char>(b), {});
 }
 
 fs::path
@@ -332,6 +381,57 @@ MeasurePage(const std::string & scan, const std::vector<std::string> & source, c
   for (const auto & [name, times] : timesOfParts)
   {
     result.details[name] = std::round(100.0 * Median(times)) / 100.0;
+  }
+  fs::remove_all(folder);
+  return { result };
+}
+
+std::vector<BenchResult>
+MeasureScale(unsigned int size, const std::string & limit, const BenchSettings & settings)
+{
+  const fs::path folder = MakeFolder();
+  const fs::path volume = folder / "balls.mhd";
+  const double truth = WriteBalls(size, volume);
+  const auto command = [&](const std::string & most, const fs::path & made) {
+    return Command{ FolderOfPrograms() / "rhombic",
+                    "-q",
+                    "--threads",
+                    std::to_string(settings.threads),
+                    "mesh",
+                    volume,
+                    "-t",
+                    "20000.5",
+                    "--max-memory",
+                    most,
+                    "-o",
+                    made / "balls.ply",
+                    "--measures",
+                    made / "balls.json" };
+  };
+  const Command ours = command(limit, folder / "ours");
+  const Command whole = command("1024G", folder / "bare");
+  BenchResult result;
+  result.section = "scale";
+  result.candidate = "--max-memory " + limit;
+  result.reference = "in memory";
+  result.threads = settings.threads;
+  result.target = 1.0 / 1.3;
+  result.details["size"] = size;
+  result.details["MiB"] = std::round(MeasurePeakMemory(ours, "Pss_Anon:"));
+  result.details["in memory MiB"] = std::round(MeasurePeakMemory(whole, "Pss_Anon:"));
+  if (!HaveSameBytes(folder / "ours/balls.ply", folder / "bare/balls.ply"))
+  {
+    throw Failure(FailureKind::Internal, "The meshes made in slabs and in memory differ.");
+  }
+  const auto measures = nlohmann::json::parse(std::ifstream(folder / "ours/balls.json"));
+  const double measured = 1000.0 * measures.at(0).at("measures").at("volume_ml").get<double>();
+  result.details["volume error %"] = std::round(1e4 * 100.0 * (measured / truth - 1.0)) / 1e4;
+  result.details["mesh MiB"] =
+    std::round(static_cast<double>(fs::file_size(folder / "ours/balls.ply")) / (1024.0 * 1024.0));
+  for (unsigned int n = 0; n < settings.repeats; ++n)
+  {
+    result.times.reference.push_back(TimeOf([&] { return RunCommand(whole); }));
+    result.times.candidate.push_back(TimeOf([&] { return RunCommand(ours); }));
   }
   fs::remove_all(folder);
   return { result };
