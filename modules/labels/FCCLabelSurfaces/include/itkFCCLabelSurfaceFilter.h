@@ -22,7 +22,7 @@ namespace itk
  *
  * With weights (SetWeights()), a point lies where the weights of its labels tie, interpolated linearly: on edges that
  * is always between the ends if the label of each site has the largest weight there. Ties outside of their face or
- * tetrahedron are moved towards its middle. Without weights, points are in the middle.
+ * tetrahedron, or near its border, are moved towards its middle. Without weights, points are in the middle.
  *
  * The passes are the same as for isosurfaces: cut edges as bits; counts of each plane; sums, which give each plane its
  * part of the output; points and triangles of all planes. Faces and tetrahedra follow from the bits of their edges. The
@@ -50,8 +50,12 @@ public:
   using LabelType = LabelWalls::LabelType;
   using InputImageType = FCCImage<LabelType>;
 
-  /** The least barycentric coordinate of a point in its edge, face or tetrahedron. */
+  /** The least barycentric coordinate of a point in its edge. */
   static constexpr double MinimumFraction = 1.0 / 128.0;
+
+  /** The least barycentric coordinate of a point in its face or tetrahedron: where three labels meet, triangles are so
+   * small that points near the border of their face make slivers, whose normals are arbitrary. */
+  static constexpr double JunctionFraction = 0.1;
 
   using Superclass::SetInput;
   void

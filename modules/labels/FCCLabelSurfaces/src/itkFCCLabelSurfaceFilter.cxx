@@ -183,15 +183,17 @@ Solve(std::array<std::array<double, VSize + 1>, VSize> & rows, BySite<double, VS
 }
 
 /** Barycentric coordinates of the point of a simplex where the weights of its sites' labels are equal. Where the
- * weights, which are linear, tie outside of the simplex, the point is moved towards the simplex's middle until each
- * coordinate is at least MinimumFraction. The middle if they tie nowhere.
+ * weights, which are linear, tie outside of the simplex or near its border, the point is moved towards the simplex's
+ * middle until each coordinate is at least MinimumFraction, or JunctionFraction for three sites and more. The middle if
+ * they tie nowhere.
  *
  * \param weights by site and label: [site][n] is the weight at a site of the label of the n-th site */
 template <std::size_t VSize>
 BySite<double, VSize>
 FindTie(const BySite<BySite<double, VSize>, VSize> & weights)
 {
-  constexpr double least = FCCLabelSurfaceFilter::MinimumFraction;
+  constexpr double least =
+    VSize == 2 ? FCCLabelSurfaceFilter::MinimumFraction : FCCLabelSurfaceFilter::JunctionFraction;
   if constexpr (VSize == 2) // most points
   {
     const double first = weights[0][0] - weights[0][1]; // the lead of the first label at the first site

@@ -170,7 +170,10 @@ SmoothSheets(const TriangleSurface & surface,
   const Values<3> normals = FindNormals(surface, fans, neighbours);
   rhombic::ForEachInBlocks(count, Block, [&](SizeValueType point) {
     ways[point] = ToPoint(Subtract(Add(ToPosition(ways[point]), origin), ToPosition(start[point])));
-    heights[point][0] = static_cast<float>(Dot(ToPosition(ways[point]), ToPosition(normals[point])));
+    // Normals of sheets that meet have no mean.
+    heights[point][0] = strata.strata[point] == Stratum::Sheet
+                          ? static_cast<float>(Dot(ToPosition(ways[point]), ToPosition(normals[point])))
+                          : 0.0f;
   });
   Filter(neighbours, coefficients, heights, progress);
   moves.MoveTowards(

@@ -47,7 +47,8 @@ private:
  *
  * A low-pass filter pulls surfaces to the inner side of their bends, thin tubes to their axis. So what a neighbourhood
  * has moved along its normals on average is taken back: the move along the normals, filtered in the same way. A tube
- * keeps its radius then, and becomes round. */
+ * keeps its radius then, and becomes round. On curves nothing is taken back: the sheets that meet there have no common
+ * normal, and where something was, triangles at curves folded. */
 void
 SmoothSheets(const TriangleSurface & surface,
              const TrianglesOfPoints & fans,
