@@ -53,10 +53,6 @@ public:
   /** The least barycentric coordinate of a point in its edge. */
   static constexpr double MinimumFraction = 1.0 / 128.0;
 
-  /** The least barycentric coordinate of a point in its face or tetrahedron: where three labels meet, triangles are so
-   * small that points near the border of their face make slivers, whose normals are arbitrary. */
-  static constexpr double JunctionFraction = 0.1;
-
   using Superclass::SetInput;
   void
   SetInput(const InputImageType * labels)
@@ -72,6 +68,12 @@ public:
   /** Weights of the labels near walls, sorted. Default none. */
   itkSetInputMacro(Weights, FCCLabelWeights);
   itkGetInputMacro(Weights, FCCLabelWeights);
+
+  /** The least barycentric coordinate of a point in its face or tetrahedron, from MinimumFraction to 0.25. Where labels
+   * meet triangles are small, and points near the border of their face make slivers, whose normals are arbitrary; but
+   * points that are kept off it do not follow the weights. Default 0.1. */
+  itkSetClampMacro(JunctionFraction, double, MinimumFraction, 0.25);
+  itkGetConstMacro(JunctionFraction, double);
 
   LabelWalls *
   GetOutput()
@@ -108,6 +110,9 @@ protected:
 
   void
   GenerateData() override;
+
+private:
+  double m_JunctionFraction = 0.1;
 };
 
 } // namespace itk

@@ -184,16 +184,13 @@ Solve(std::array<std::array<double, VSize + 1>, VSize> & rows, BySite<double, VS
 
 /** Barycentric coordinates of the point of a simplex where the weights of its sites' labels are equal. Where the
  * weights, which are linear, tie outside of the simplex or near its border, the point is moved towards the simplex's
- * middle until each coordinate is at least MinimumFraction, or JunctionFraction for three sites and more. The middle if
- * they tie nowhere.
+ * middle until each coordinate is at least \a least. The middle if they tie nowhere.
  *
  * \param weights by site and label: [site][n] is the weight at a site of the label of the n-th site */
 template <std::size_t VSize>
 BySite<double, VSize>
-FindTie(const BySite<BySite<double, VSize>, VSize> & weights)
+FindTie(const BySite<BySite<double, VSize>, VSize> & weights, double least)
 {
-  constexpr double least =
-    VSize == 2 ? FCCLabelSurfaceFilter::MinimumFraction : FCCLabelSurfaceFilter::JunctionFraction;
   if constexpr (VSize == 2) // most points
   {
     const double first = weights[0][0] - weights[0][1]; // the lead of the first label at the first site
@@ -232,10 +229,10 @@ FindTie(const BySite<BySite<double, VSize>, VSize> & weights)
   return point;
 }
 
-/** The point of a simplex of VSize sites and of some type at the site of an index. */
+/** The point of a simplex of VSize sites and of some type at the site of an index, see FindTie(). */
 template <std::size_t VSize>
 TriangleSurface::PointType
-PlacePoint(const FCCLabelBox & box, const Index<3> & index, unsigned int type)
+PlacePoint(const FCCLabelBox & box, const Index<3> & index, unsigned int type, double least)
 {
   const FCCCells::Simplex & simplex = FCCCells::Simplices[type];
   BySite<Index<3>, VSize> sites;
@@ -250,7 +247,7 @@ PlacePoint(const FCCLabelBox & box, const Index<3> & index, unsigned int type)
   {
     box.GetWeights(sites[n], labels[n], labels, weights[n]);
   }
-  const BySite<double, VSize> coordinates = FindTie<VSize>(weights);
+  const BySite<double, VSize> coordinates = FindTie<VSize>(weights, least);
   PositionType steps{};
   for (std::size_t n = 0; n < VSize; ++n)
   {
@@ -283,27 +280,32 @@ AddPointsOfRow(const FCCLabelPlane & plane,
                SizeValueType j,
                unsigned int beginType,
                unsigned int endType,
+               double least,
                TriangleSurface::PointsContainer & points)
 {
   const FCCLabelBox & box = plane.GetBox();
   for (unsigned int type = beginType; type < endType; ++type)
   {
     FCCBits::ForEach(plane.GetRow(j, type).bits, box.GetNumberOfWords(), [&](SizeValueType i) {
-      points.push_back(PlacePoint<VSize>(box, BoxIndex(i, j, plane.GetPlane()), type));
+      points.push_back(PlacePoint<VSize>(box, BoxIndex(i, j, plane.GetPlane()), type, least));
     });
   }
 }
 
 void
-AddPoints(const FCCLabelPlane & plane, const FCCLabelPlane & next, TriangleSurface::PointsContainer & points)
+AddPoints(const FCCLabelPlane & plane,
+          const FCCLabelPlane & next,
+          double junctionFraction,
+          TriangleSurface::PointsContainer & points)
 {
+  constexpr double onEdges = FCCLabelSurfaceFilter::MinimumFraction;
   for (SizeValueType j = 0; j < plane.GetBox().GetHeight(); ++j)
   {
     if (plane.MayHavePoints(next, j))
     {
-      AddPointsOfRow<2>(plane, j, 0, FCCCells::FirstFace, points);
-      AddPointsOfRow<3>(plane, j, FCCCells::FirstFace, FCCCells::FirstTetrahedron, points);
-      AddPointsOfRow<4>(plane, j, FCCCells::FirstTetrahedron, FCCCells::Types, points);
+      AddPointsOfRow<2>(plane, j, 0, FCCCells::FirstFace, onEdges, points);
+      AddPointsOfRow<3>(plane, j, FCCCells::FirstFace, FCCCells::FirstTetrahedron, junctionFraction, points);
+      AddPointsOfRow<4>(plane, j, FCCCells::FirstTetrahedron, FCCCells::Types, junctionFraction, points);
     }
   }
 }
@@ -396,7 +398,7 @@ FCCLabelSurfaceFilter::GenerateData()
     window.Get(0).Number(0);
     for (SizeValueType k = begin; k < end; ++k)
     {
-      AddPoints(window.Get(0), window.Get(1), walls.points);
+      AddPoints(window.Get(0), window.Get(1), m_JunctionFraction, walls.points);
       window.Get(1).Number(static_cast<std::uint32_t>(walls.points.size()));
       AddTriangles(window.Get(0), window.Get(1), isLeftHanded, walls);
       window.Advance();

@@ -63,6 +63,7 @@ ExtractAlone(LabelType label, const ImageRegion<3> & box, const Lattice & labels
   const auto filter = FCCLabelSurfaceFilter::New();
   filter->SetInput(part);
   filter->SetWeights(weightsOfPart);
+  filter->SetJunctionFraction(FCCLabelSurfaceFilter::MinimumFraction); // volumes have to follow offsets
   filter->SetNumberOfWorkUnits(1);
   filter->Update();
   std::vector<LabelType> alone(numbers.size());
@@ -89,6 +90,7 @@ public:
     const auto filter = FCCLabelSurfaceFilter::New();
     filter->SetInput(&labels);
     filter->SetWeights(&weights);
+    filter->SetJunctionFraction(FCCLabelSurfaceFilter::MinimumFraction);
     filter->Update();
     std::vector<double> steps = m_Together.FindLayers(
       *filter->GetOutput(), [this](std::size_t label, double layer) { return this->Bound(label, layer); });
