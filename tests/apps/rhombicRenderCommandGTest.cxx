@@ -332,7 +332,7 @@ TEST_F(RenderCommand, InteractivePagesNeedNoMoreMemoryThanSheetsButForTheirSize)
     arguments.insert(arguments.end(), { option, "-o", file });
     return FindPeakMemory(arguments);
   };
-  constexpr double ofMorePictures = 6.0; // MiB, which OpenGL's compiler keeps: a page has 28 pictures of 3D, a sheet 4
+  constexpr double ofMorePictures = 20.0; // MiB: 28 pictures of 3D, not 4, leave up to 6 MiB; runs differ by as much
   const double ofSheet = draw("--sheet", m_Folder.Path() / "sheet.pdf");
   const double ofPage = draw("--no-sidecar", m_Folder.Path() / "page.html");
   const double sizeOfPage = static_cast<double>(fs::file_size(m_Folder.Path() / "page.html")) / (1024.0 * 1024.0);
