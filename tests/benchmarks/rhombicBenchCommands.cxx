@@ -224,9 +224,8 @@ WriteBalls(unsigned int size, const fs::path & header)
                         << voxels.filename().string() << '\n';
   std::ofstream file(voxels, std::ios::binary);
   std::vector<std::uint16_t> row(size);
-  const auto fromMiddle = [](unsigned int index) {
-    return index % pitch - 0.5 * pitch + 0.3;
-  }; // of the ball, in voxels
+  // From the middle of the nearest ball, in voxels.
+  const auto fromMiddle = [](unsigned int index) { return index % pitch - 0.5 * pitch + 0.3; };
   for (unsigned int z = 0; z < size; ++z)
   {
     for (unsigned int y = 0; y < size; ++y)
@@ -322,6 +321,10 @@ MeasureLabelCommands(const std::string & map, const BenchSettings & settings)
 std::vector<BenchResult>
 MeasurePage(const std::string & scan, const std::vector<std::string> & source, const BenchSettings & settings)
 {
+  if (scan.empty())
+  {
+    throw Failure(FailureKind::Usage, "Pages are of a scan; name one with --scan.");
+  }
   constexpr double allowance = 1.5; // seconds
   constexpr double share = 0.25;    // of the triangles, which a page keeps if it has room for them
   constexpr double bytesOfMiB = 1024.0 * 1024.0;
@@ -389,6 +392,10 @@ MeasurePage(const std::string & scan, const std::vector<std::string> & source, c
 std::vector<BenchResult>
 MeasureScale(unsigned int size, const std::string & limit, const BenchSettings & settings)
 {
+  if (size % 128 != 0)
+  {
+    throw Failure(FailureKind::Usage, "Balls lie 128 voxels apart; write --scale-size 512, for example.");
+  }
   const fs::path folder = MakeFolder();
   const fs::path volume = folder / "balls.mhd";
   const double truth = WriteBalls(size, volume);

@@ -66,7 +66,7 @@ struct PageContent
   bool isOriented = true;         ///< whether sides of the patient are known; without, there are no letters
   std::vector<StillPicture> views;
   std::vector<StillPicture> slices;
-  std::vector<std::string> turntable;     ///< JPEG files: views around the patient, from the front towards the left
+  std::vector<std::string> turntable;     ///< JPEG files of views: from the front towards the patient's left
   std::uintmax_t largestSize = 8'000'000; ///< bytes of the page that simplification aims at
 
   /** Of SceneSurface::pointValues, which give the colours of the surfaces that have them; with a bar. */

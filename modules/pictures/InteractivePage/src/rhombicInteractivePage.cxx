@@ -214,10 +214,10 @@ struct FixedParts
 {
   std::string pictures; ///< HTML
   std::string table;
-  std::string turntable; ///< data blocks
-  std::size_t turns = 0; ///< number of them
-  std::size_t turnsBefore = 0;
-  Json surfaces; ///< what the script has to know of them
+  std::string turntable;       ///< data blocks
+  std::size_t turns = 0;       ///< number of them
+  std::size_t turnsBefore = 0; ///< number of those that were drawn
+  Json surfaces;               ///< what the script has to know of them
 };
 
 /** Parts of a page that are made as small as it needs. */
@@ -296,7 +296,7 @@ CodeSurfaces(std::uintmax_t room,
   const auto triangles = static_cast<double>(maker.GetNumberOfTriangles());
   double target = std::min(static_cast<double>(room) / bytesOfTriangle, ShareOfTriangles * triangles);
   bool isReached = false;
-  for (double error = ErrorForShare; error <= LargestError || isReached;
+  for (double error = ErrorForShare; error <= LargestError;
        error = isReached ? std::round(10.0 * error + 1.0) / 10.0 : 2.0 * error)
   {
     const std::size_t wanted = std::max(FewestTriangles, static_cast<std::size_t>(target));
