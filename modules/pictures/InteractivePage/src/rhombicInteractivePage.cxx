@@ -41,7 +41,7 @@ constexpr double ShareOfTriangles = 0.25; // more are hardly seen
 constexpr double ErrorForShare = 0.1;     // mm
 constexpr double LargestError = 3.2;      // mm
 constexpr std::size_t FewestTriangles = 100;
-constexpr std::uintmax_t SizeOfNotes = 1000;  // bytes, what the page says of its reduction
+constexpr std::uintmax_t SizeOfNotes = 2000;  // bytes, at most, what the page says of its reduction
 constexpr double BytesOfTriangle = 3.4;       // in base64; surfaces with many triangles need 3.3
 constexpr double BytesOfValuedTriangle = 4.2; // where points have values
 
