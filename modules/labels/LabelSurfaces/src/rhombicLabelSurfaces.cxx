@@ -24,6 +24,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <utility>
 
 namespace rhombic
 {
@@ -151,21 +152,26 @@ RelaxationByProbabilities(const itk::ImageBase<3> & grid)
   return settings;
 }
 
-/** The walls between labels on a lattice, smoothed.
+/** The walls between labels on a lattice, smoothed. The filter with the lattice and its weights, which take far more
+ * memory than the walls, is freed before.
  * \param volumes of labels, which smoothing keeps; or empty */
 template <typename TFilter>
 itk::LabelWalls::Pointer
-ExtractWalls(TFilter & toLattice,
+ExtractWalls(itk::SmartPointer<TFilter> toLattice,
              const itk::TriangleSurfaceSmoothingSettings & relaxation,
              const std::vector<double> & volumes)
 {
-  toLattice.ReleaseDataFlagOn();
-  const auto extract = itk::FCCLabelSurfaceFilter::New();
-  extract->SetInput(toLattice.GetOutput());
-  extract->SetWeights(toLattice.GetWeights());
+  toLattice->ReleaseDataFlagOn();
+  auto extract = itk::FCCLabelSurfaceFilter::New();
+  extract->SetInput(toLattice->GetOutput());
+  extract->SetWeights(toLattice->GetWeights());
+  GiveBackFreedMemory();
   extract->Update();
   itk::LabelWalls::Pointer walls = extract->GetOutput();
   walls->DisconnectPipeline();
+  extract = nullptr;
+  toLattice = nullptr;
+  GiveBackFreedMemory();
   itk::RelaxLabelWalls(*walls, relaxation, volumes);
   return walls;
 }
@@ -179,7 +185,7 @@ WallsOfVoxels(const LabelImage & numbers,
               const LabelSurfaceSettings & settings,
               const Events & events)
 {
-  const auto toLattice = itk::LabelsToFCCFilter::New();
+  auto toLattice = itk::LabelsToFCCFilter::New();
   toLattice->SetInput(&numbers);
   toLattice->SetDensity(settings.density);
   toLattice->SetScan(scan);
@@ -190,7 +196,8 @@ WallsOfVoxels(const LabelImage & numbers,
                 "use a coarser lattice, or crop the label map");
   ObserveProgress(*toLattice, "extracting labels", events);
   toLattice->Update();
-  itk::LabelWalls::Pointer walls = ExtractWalls(*toLattice, RelaxationByVoxels(numbers), toLattice->GetVoxelVolumes());
+  const std::vector<double> volumes = toLattice->GetVoxelVolumes();
+  itk::LabelWalls::Pointer walls = ExtractWalls(std::move(toLattice), RelaxationByVoxels(numbers), volumes);
   walls->MergeLabels(pieces.labels);
   return walls;
 }
@@ -203,7 +210,7 @@ WallsOfProbabilities(const LabelMap & map,
                      const LabelSurfaceSettings & settings,
                      const Events & events)
 {
-  const auto toLattice = itk::ProbabilitiesToFCCFilter::New();
+  auto toLattice = itk::ProbabilitiesToFCCFilter::New();
   std::uintmax_t uncertain = 0; // values between 0 and 1
   for (std::size_t n = 0; n < map.probabilities.size(); ++n)
   {
@@ -229,7 +236,7 @@ WallsOfProbabilities(const LabelMap & map,
     "use a coarser lattice, or crop the volumes of probabilities");
   ObserveProgress(*toLattice, "extracting labels", events);
   toLattice->Update();
-  itk::LabelWalls::Pointer walls = ExtractWalls(*toLattice, RelaxationByProbabilities(*map.probabilities.front()), {});
+  itk::LabelWalls::Pointer walls = ExtractWalls(std::move(toLattice), RelaxationByProbabilities(*map.probabilities.front()), {});
   std::vector<std::uint16_t> chosen(map.probabilities.size() + 1);
   for (std::size_t n = 0; n < labels.size(); ++n)
   {
