@@ -281,9 +281,11 @@ TEST(InteractivePage, TheBarIsThatOfTheScale)
 {
   PageContent content = MakeContent(nullptr);
   content.scale = ColourScale{ "inferno", 0.0, 8.0, "SUV" };
+  content.scale->marks = { -2.0, 4.0, 6.0, 9.0 };
   const auto colours = nlohmann::json::parse(JsonOf(MakeInteractivePage(content, {}).html))["colours"];
   EXPECT_EQ(colours["title"], "SUV");
   EXPECT_EQ(colours["numbers"], (std::vector<std::string>{ "0", "2", "4", "6", "8" }));
+  EXPECT_EQ(colours["marks"], (std::vector<double>{ 0.5, 0.75 })) << "of the bar, from below; others are outside";
   EXPECT_EQ(colours["map"].get<std::string>().size(), 255u * 6u);
   EXPECT_EQ(colours["map"].get<std::string>().substr(0, 6), "000004");
   EXPECT_EQ(colours["map"].get<std::string>().substr(254 * 6), "fcffa4");

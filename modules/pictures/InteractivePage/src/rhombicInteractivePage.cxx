@@ -196,7 +196,8 @@ DescribeVolume(const PageVolume & volume, const PageContent & content, std::size
            { "windows", windows },        { "resampled", volume.isResampled } };
 }
 
-/** What the script has to know of the colours of numbers: 255 of them, from the scale's lower end to its upper end. */
+/** What the script has to know of the colours of numbers: 255 of them, from the scale's lower end to its upper end, and
+ * the shares of the bar below its marks. */
 Json
 DescribeColours(const ColourScale & scale)
 {
@@ -206,7 +207,16 @@ DescribeColours(const ColourScale & scale)
   {
     map += HexOf(ColourOf(scale, scale.low + (scale.high - scale.low) * n / steps)).substr(1);
   }
-  return { { "title", scale.title }, { "numbers", NumbersOnBar(scale) }, { "map", map } };
+  Json marks = Json::array();
+  for (const double mark : scale.marks)
+  {
+    const double share = (mark - scale.low) / (scale.high - scale.low);
+    if (share > 0.0 && share < 1.0)
+    {
+      marks.push_back(share);
+    }
+  }
+  return { { "title", scale.title }, { "numbers", NumbersOnBar(scale) }, { "map", map }, { "marks", marks } };
 }
 
 /** Everything of a page that does not depend on its reduction. */

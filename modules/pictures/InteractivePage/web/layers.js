@@ -61,13 +61,15 @@ function describeView(azimuth, elevation) {
 }
 
 /** The bar of the colours beside the scene, with its numbers. */
-function showBar({ title, numbers, map }) {
+function showBar({ title, numbers, map, marks }) {
   const canvas = make('canvas', { width: 1, height: map.length / 6, ariaHidden: 'true' });
   const context = canvas.getContext('2d');
   map.match(/.{6}/g).forEach((colour, n) => {
     context.fillStyle = '#' + colour;
     context.fillRect(0, canvas.height - 1 - n, 1, 1);
   });
+  context.fillStyle = '#000';
+  marks.forEach((share) => context.fillRect(0, (1 - share) * canvas.height - 1, 1, 2));
   const labels = make('div', {}, ...[...numbers].reverse().map((number) => make('span', { textContent: number })));
   const bar = document.getElementById('colours');
   bar.append(make('b', { textContent: title }), make('div', {}, canvas, labels));
