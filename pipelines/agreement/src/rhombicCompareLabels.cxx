@@ -6,6 +6,7 @@
 #include "rhombicFailure.h"
 #include "rhombicLabelParts.h"
 #include "rhombicMemoryBudget.h"
+#include "rhombicPackedWalls.h"
 #include "rhombicSceneRules.h"
 #include "rhombicSurfaceMeasures.h"
 #include "rhombicVoxelMetrics.h"
@@ -428,9 +429,11 @@ public:
     {
       noise = FindNoiseFloors(m_First, ofFirst);
     }
+    const std::vector<PackedWalls> waiting = PackWalls(m_First);
     DropMap(m_First);
     ExtractSide(m_Settings, ChosenOf(m_Pairs, &LabelPair::second), m_Events, m_Second);
     DropMap(m_Second);
+    UnpackWalls(waiting, m_First);
     std::vector<LabelAgreement> agreements;
     for (std::size_t n = 0; n < m_Pairs.size(); ++n)
     {
@@ -454,6 +457,27 @@ public:
   }
 
 private:
+  /** The walls of a side, which are left empty until UnpackWalls(). */
+  static std::vector<PackedWalls>
+  PackWalls(ComparedSide & side)
+  {
+    std::vector<PackedWalls> packed;
+    for (std::size_t n = 0; side.mesh && n < side.mesh->walls.size(); ++n)
+    {
+      packed.emplace_back(*side.mesh->walls[n]);
+    }
+    return packed;
+  }
+
+  static void
+  UnpackWalls(const std::vector<PackedWalls> & packed, ComparedSide & side)
+  {
+    for (std::size_t n = 0; n < packed.size(); ++n)
+    {
+      packed[n].Unpack(*side.mesh->walls[n]);
+    }
+  }
+
   /** Frees the voxels; what is needed of them is known. What making the walls has freed goes back to the system. */
   static void
   DropMap(ComparedSide & side)
