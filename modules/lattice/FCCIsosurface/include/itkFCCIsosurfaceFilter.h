@@ -401,6 +401,7 @@ private:
     std::atomic<SizeValueType> undefined{ 0 };
     this->ForEachLoadedSlab(region.GetSize(2), 0, 0.05f, [&](SizeValueType begin, SizeValueType end) {
       SizeValueType undefinedInSlab = 0;
+      std::vector<FCCSigns::WordType> row(signs.front().GetNumberOfWords());
       for (SizeValueType k = begin; k < end; ++k)
       {
         m_WorkProgress->CheckAbort();
@@ -416,12 +417,13 @@ private:
           }
           for (std::size_t n = 0; n < signs.size(); ++n)
           {
-            FCCSigns::WordType * const row = signs[n].GetRow(j + margin, k + margin);
-            FCCRowKernels::Classify(values, region.GetSize(0), m_Isovalues[n], m_InsideIsBelow, row);
+            row.back() = 0; // the margin may need a word more than the samples
+            FCCRowKernels::Classify(values, region.GetSize(0), m_Isovalues[n], m_InsideIsBelow, row.data());
             if (margin > 0)
             {
-              FCCBits::MoveUp(row, signs[n].GetNumberOfWords());
+              FCCBits::MoveUp(row.data(), row.size());
             }
+            signs[n].SetRow(j + margin, k + margin, row.data());
           }
         }
       }

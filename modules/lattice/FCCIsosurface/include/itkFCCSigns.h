@@ -4,6 +4,11 @@
 #include "detail/itkFCCBitRows.h"
 #include "itkFCCLattice.h"
 
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <new>
+
 namespace itk
 {
 
@@ -11,7 +16,8 @@ namespace itk
  * \brief One bit for each site of a box of the lattice: whether it is inside the surface.
  *
  * Rows are stored as FCCBitRows has them. Rows are counted from (0, 0) whatever the image's start index, so the parity
- * of that row is stored, too. Different rows can be written at once.
+ * of that row is stored, too. Different rows can be written at once. Where the C library takes zeroed memory from the
+ * system, pages of memory in which no site is inside take none.
  *
  * \ingroup FCCIsosurface
  */
@@ -25,8 +31,15 @@ public:
     , m_Height(height)
     , m_Depth(depth)
     , m_ParityOfFirstRow(parityOfFirstRow)
-    , m_Rows(height * depth, FCCBits::WordsOf(width), std::pmr::get_default_resource())
-  {}
+    , m_NumberOfWords(FCCBits::WordsOf(width))
+    , m_Words(static_cast<WordType *>(
+        std::calloc(height * depth * (m_NumberOfWords + 1) + FCCBitRows::WordsBeyond, sizeof(WordType))))
+  {
+    if (m_Words == nullptr)
+    {
+      throw std::bad_alloc();
+    }
+  }
 
   SizeValueType
   GetWidth() const
@@ -47,7 +60,7 @@ public:
   SizeValueType
   GetNumberOfWords() const
   {
-    return m_Rows.GetStride() - 1;
+    return m_NumberOfWords;
   }
 
   /** 0 for a row whose sites have an even x, else 1: FCCLattice::Parity(). */
@@ -58,23 +71,38 @@ public:
   }
 
   /** The words of a row. */
-  WordType *
-  GetRow(SizeValueType j, SizeValueType k)
-  {
-    return m_Rows.GetRow(k * m_Height + j);
-  }
   const WordType *
   GetRow(SizeValueType j, SizeValueType k) const
   {
-    return m_Rows.GetRow(k * m_Height + j);
+    return m_Words.get() + (k * m_Height + j) * (m_NumberOfWords + 1);
+  }
+
+  /** Sets a row that was not set before. \param words as many as GetNumberOfWords() */
+  void
+  SetRow(SizeValueType j, SizeValueType k, const WordType * words)
+  {
+    if (std::any_of(words, words + m_NumberOfWords, [](WordType word) { return word != 0; }))
+    {
+      std::copy_n(words, m_NumberOfWords, m_Words.get() + (k * m_Height + j) * (m_NumberOfWords + 1));
+    }
   }
 
 private:
+  struct Free
+  {
+    void
+    operator()(WordType * words) const
+    {
+      std::free(words);
+    }
+  };
+
   SizeValueType m_Width;
   SizeValueType m_Height;
   SizeValueType m_Depth;
   IndexValueType m_ParityOfFirstRow;
-  FCCBitRows m_Rows;
+  SizeValueType m_NumberOfWords;
+  std::unique_ptr<WordType[], Free> m_Words;
 };
 
 /** \class FCCStepTarget
