@@ -157,8 +157,41 @@ TrianglesPerFace(itk::FCCIsosurfaceMode mode)
   }
 }
 
-/** The memory that surfaces need until they are written, estimated from a part of the scan's slices, and, for each but
- * the first, the two bits for each sample of their extraction.
+/** What the samples of a slice tell of an isosurface. */
+struct SliceCounts
+{
+  std::size_t crossings = 0; ///< edges of voxels in the slice that the surface crosses
+  std::size_t pages = 0;     ///< groups of rows with a sample that is inside
+};
+
+/** Counts a slice. \param rowsOfPage rows of a group */
+template <typename TPixel>
+SliceCounts
+CountSlice(const TPixel * value, const itk::Size<3> & size, const Threshold & threshold, std::size_t rowsOfPage)
+{
+  const auto isInside = [&threshold](TPixel sample) { return threshold.IsInside(static_cast<double>(sample)); };
+  SliceCounts counts;
+  bool isUsed = false; // the group so far
+  for (std::size_t row = 0; row + 1 < size[1]; ++row, ++value)
+  {
+    for (std::size_t column = 0; column + 1 < size[0]; ++column, ++value)
+    {
+      const bool inside = isInside(*value);
+      isUsed = isUsed || inside;
+      counts.crossings += (inside != isInside(value[1]) ? 1 : 0) + (inside != isInside(value[size[0]]) ? 1 : 0);
+    }
+    if ((row + 1) % rowsOfPage == 0 || row + 2 == size[1])
+    {
+      counts.pages += isUsed ? 1 : 0;
+      isUsed = false;
+    }
+  }
+  return counts;
+}
+
+/** The memory that surfaces need until they are written, and that of the bits of their extraction, estimated from a
+ * part of the scan's slices. There are two bits for each sample, but for pages in which none is inside
+ * (itk::FCCSigns).
  * \param density relative to the default */
 std::uintmax_t
 EstimateMeshBytes(const Scan & scan,
@@ -168,34 +201,35 @@ EstimateMeshBytes(const Scan & scan,
 {
   constexpr double bytesOfTriangle = 56.0; // while a mesh is untangled or written
   constexpr std::size_t mostSlices = 64;
+  constexpr std::size_t samplesOfPage = 50'000; // samples of the scan whose bits share a page of memory
   const auto & size = GeometryOf(scan.image).GetLargestPossibleRegion().GetSize();
   const std::size_t step = (size[2] + mostSlices - 1) / mostSlices;
-  std::vector<std::size_t> crossings((size[2] + step - 1) / step);
+  const std::size_t rowsOfPage = 1 + samplesOfPage / size[0];
+  std::vector<SliceCounts> slices((size[2] + step - 1) / step);
   const auto count = [&](const auto & image) {
     for (const SurfaceRequest & request : requests)
     {
-      ForEachInBlocks(crossings.size(), 1, [&, isovalue = *request.isovalue](std::size_t n) {
-        const auto * value = image->GetBufferPointer() + n * step * size[1] * size[0];
-        const auto isInside = [isovalue](auto sample) { return static_cast<double>(sample) >= isovalue; };
-        for (std::size_t row = 0; row + 1 < size[1]; ++row, ++value)
-        {
-          for (std::size_t column = 0; column + 1 < size[0]; ++column, ++value)
-          {
-            const bool inside = isInside(*value);
-            crossings[n] += (inside != isInside(value[1]) ? 1 : 0) + (inside != isInside(value[size[0]]) ? 1 : 0);
-          }
-        }
+      ForEachInBlocks(slices.size(), 1, [&, threshold = request.GetThreshold()](std::size_t n) {
+        const auto * const values = image->GetBufferPointer() + n * step * size[1] * size[0];
+        const SliceCounts counts = CountSlice(values, size, threshold, rowsOfPage);
+        slices[n].crossings += counts.crossings;
+        slices[n].pages += counts.pages;
       });
     }
   };
   std::visit(count, scan.image);
+  SliceCounts sum;
+  for (const SliceCounts & counts : slices)
+  {
+    sum.crossings += counts.crossings;
+    sum.pages += counts.pages;
+  }
   // A plane cuts as many edges along two axes, on average of its directions, as it has faces of voxels.
-  const double faces = static_cast<double>(std::accumulate(crossings.begin(), crossings.end(), std::size_t(0))) *
-                       static_cast<double>(step);
+  const double faces = static_cast<double>(sum.crossings * step);
   const double triangles = faces * TrianglesPerFace(mode) * std::pow(density, 2.0 / 3.0);
-  const double bits =
-    0.25 * itk::FCCLattice::DefaultDensity * density * static_cast<double>(size[0] * size[1] * size[2]);
-  return static_cast<std::uintmax_t>(triangles * bytesOfTriangle + bits * static_cast<double>(requests.size() - 1));
+  const double samples = static_cast<double>(sum.pages * step) * static_cast<double>(rowsOfPage * size[0]);
+  const double bits = 0.25 * itk::FCCLattice::DefaultDensity * density * samples;
+  return static_cast<std::uintmax_t>(triangles * bytesOfTriangle + bits);
 }
 
 LoadedSource

@@ -63,17 +63,16 @@ FindPlanesOfSlab(const itk::FCCImage<TPixel> & lattice,
   constexpr itk::SizeValueType around = 20;             // further planes of a slab
   constexpr std::uintmax_t perSite = 2 * sizeof(float); // of extraction, see itk::FCCIsosurfaceFilter
   const itk::ImageRegion<3> & region = lattice.GetLargestPossibleRegion();
-  const std::uintmax_t sites = region.GetNumberOfPixels();
   const std::uintmax_t scanBytes = CountScanBytes(scan, settings);
   const std::uintmax_t allowed = MemoryAllowance(settings.maximumMemory);
-  if (sites * sizeof(TPixel) + scanBytes <= allowed)
+  if (region.GetNumberOfPixels() * sizeof(TPixel) + scanBytes <= allowed)
   {
     return 0;
   }
   const std::uintmax_t plane = region.GetSize(0) * region.GetSize(1) * (sizeof(TPixel) + perSite);
   stream.besides = stream.findBesides ? stream.findBesides() : 0;
   const std::uintmax_t besides = stream.besides;
-  const std::uintmax_t least = scanBytes + sites / 4 + around * plane; // two bits for each sample
+  const std::uintmax_t least = scanBytes + around * plane;
   if (besides > 0 && least + plane <= allowed)
   {
     RequireMemory(least + plane + besides,
