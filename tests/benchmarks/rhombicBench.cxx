@@ -27,7 +27,7 @@ struct Options
   double threshold = 250.5;
   std::string preset;
   std::string labels;
-  unsigned int scaleSize = 512;
+  ScaleVolume scale;
   std::string limit = "128M";
   unsigned int size = 256;
   double density = itk::FCCLattice::NyquistDensity;
@@ -223,7 +223,7 @@ Run(const Options & options)
     }
     if (isNamed("scale"))
     {
-      const auto more = MeasureScale(options.scaleSize, options.limit, settings);
+      const auto more = MeasureScale(options.scale, options.limit, settings);
       results.insert(results.end(), more.begin(), more.end());
     }
     measure("extraction", MeasureExtraction);
@@ -272,8 +272,11 @@ main(int argc, char ** argv)
   app.add_option("-t,--threshold", options.threshold, "isovalue in the scan")->capture_default_str();
   app.add_option("--preset", options.preset, "what pages show in place of the isovalue");
   app.add_option("--labels", options.labels, "a label map that pages show in place of the isovalue");
-  app.add_option("--scale-size", options.scaleSize, "voxels along each axis of the volume of scale")
-    ->check(CLI::Range(128, 4096))
+  app.add_option("--scale-size", options.scale.size, "voxels along each axis of the volume of scale")
+    ->check(CLI::Range(64, 4096))
+    ->capture_default_str();
+  app.add_option("--scale-pitch", options.scale.pitch, "voxels from ball to ball of scale")->capture_default_str();
+  app.add_option("--scale-radius", options.scale.radius, "radius of the balls of scale in voxels")
     ->capture_default_str();
   app.add_option("--limit", options.limit, "--max-memory of scale")->capture_default_str();
   app.add_option("--size", options.size, "samples along each axis of the gyroid")

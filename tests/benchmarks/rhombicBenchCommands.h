@@ -31,14 +31,22 @@ MeasureLabelCommands(const std::string & map, const BenchSettings & settings);
 std::vector<BenchResult>
 MeasurePage(const std::string & scan, const std::vector<std::string> & source, const BenchSettings & settings);
 
+/** Balls on a cubic grid, in a volume of uint16. */
+struct ScaleVolume
+{
+  unsigned int size = 512;  ///< voxels along each axis, a multiple of pitch
+  unsigned int pitch = 128; ///< voxels from ball to ball
+  double radius = 40.0;     ///< in voxels, at most 0.45 of pitch
+};
+
 /** Compares `rhombic mesh` of a raw volume of balls within a limit of memory, in slabs where it does not fit, with the
  * same in memory. In `details` the peak memory of both in MiB, without pages of the volume's file, the error of the
  * volume that the mesh encloses, and the size of its file. Throws Failure if the files differ, or a command fails. The
  * volume and the meshes are written to the folder of temporary files.
- * \param size voxels along each axis, a multiple of 128; 2 bytes each
+ * Where the work in memory would not fit, the time is compared with that of reading the volume once.
  * \param limit as --max-memory takes it */
 std::vector<BenchResult>
-MeasureScale(unsigned int size, const std::string & limit, const BenchSettings & settings);
+MeasureScale(const ScaleVolume & balls, const std::string & limit, const BenchSettings & settings);
 
 } // namespace rhombic
 
