@@ -17,6 +17,8 @@ find_package(EXPAT REQUIRED)
 find_package(HWY REQUIRED)
 find_package(meshoptimizer REQUIRED)
 find_package(PkgConfig REQUIRED)
+pkg_check_modules(blosc REQUIRED IMPORTED_TARGET blosc)           # PkgConfig::blosc
+pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)          # PkgConfig::zstd
 pkg_check_modules(pangocairo REQUIRED IMPORTED_TARGET pangocairo) # PkgConfig::pangocairo
 
 include("${CMAKE_CURRENT_LIST_DIR}/OpenImageIOWithoutOpenCV.cmake")

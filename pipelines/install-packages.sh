@@ -12,7 +12,7 @@ packages=(
   libgif-dev libjpeg62-turbo-dev
   libegl-dev libegl1 libgl1-mesa-dri
   libpango1.0-dev fonts-dejavu-core
-  libcli11-dev libyaml-cpp-dev nlohmann-json3-dev libspdlog-dev zlib1g-dev libexpat1-dev libhwy-dev libmeshoptimizer-dev
+  libcli11-dev libyaml-cpp-dev nlohmann-json3-dev libspdlog-dev zlib1g-dev libblosc-dev libzstd-dev libexpat1-dev libhwy-dev libmeshoptimizer-dev
 )
 if [ "${1-}" = tests ]; then
   packages+=(chromium firefox-esr libgtest-dev lib3mf-dev dcm2niix dcmtk dicom3tools f3d doxygen dpkg-dev file help2man poppler-utils

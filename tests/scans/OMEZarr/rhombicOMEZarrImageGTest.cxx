@@ -7,11 +7,15 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <numeric>
 #include <random>
+
+#include <blosc.h>
+#include <zstd.h>
 
 /** Levels of OME-Zarr images. */
 namespace
@@ -33,11 +37,42 @@ protected:
   const fs::path m_Folder = m_TemporaryFolder.Path() / "image.ome.zarr";
 };
 
+ZarrCodec
+ZstdCodec()
+{
+  return { "zstd", R"({"id": "zstd", "level": 3})", [](const std::string & bytes) {
+            std::string packed(ZSTD_compressBound(bytes.size()), '\0');
+            packed.resize(ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), 3));
+            return packed;
+          } };
+}
+
+/** \param shuffle 0, by bytes or by bits */
+ZarrCodec
+BloscCodec(const std::string & inner, int shuffle)
+{
+  const std::string json =
+    R"({"id": "blosc", "cname": ")" + inner + R"(", "clevel": 5, "shuffle": )" + std::to_string(shuffle) + "}";
+  return { "blosc", json, [inner, shuffle](const std::string & bytes) {
+            std::string packed(bytes.size() + BLOSC_MAX_OVERHEAD, '\0');
+            const int size = blosc_compress_ctx(
+              5, shuffle, 2, bytes.size(), bytes.data(), packed.data(), packed.size(), inner.c_str(), 0, 1);
+            EXPECT_GT(size, 0) << inner;
+            packed.resize(static_cast<std::size_t>(std::max(0, size)));
+            return packed;
+          } };
+}
+
 std::vector<ZarrCodec>
 AllCodecs()
 {
   std::vector<ZarrCodec> codecs = rhombictest::DeflateCodecs();
   codecs.push_back(rhombictest::RawCodec());
+  codecs.push_back(ZstdCodec());
+  for (const char * const inner : { "blosclz", "lz4", "lz4hc", "zlib", "zstd" })
+  {
+    codecs.push_back(BloscCodec(inner, static_cast<int>(codecs.size()) % 3));
+  }
   return codecs;
 }
 

@@ -5,7 +5,9 @@
 #include <limits>
 #include <string>
 
+#include <blosc.h>
 #include <zlib.h>
+#include <zstd.h>
 
 namespace rhombic
 {
@@ -39,6 +41,23 @@ Inflate(const SandboxInput & input, std::byte * buffer, std::size_t size)
   return state == Z_STREAM_END && stream.avail_out == 0 && stream.avail_in == 0;
 }
 
+/** Unpacks blosc's content, by one thread. Returns whether it is sound and gives exactly \a size bytes. */
+bool
+UnpackBlosc(const SandboxInput & input, std::byte * buffer, std::size_t size)
+{
+  std::size_t announced = 0;
+  const bool isSound = blosc_cbuffer_validate(input.file, input.size, &announced) == 0 && announced == size;
+  const int unpacked = isSound ? blosc_decompress_ctx(input.file, buffer, size, 1) : -1;
+  return unpacked >= 0 && static_cast<std::size_t>(unpacked) == size;
+}
+
+/** Unpacks frames of zstd. Returns whether they are sound and give exactly \a size bytes. */
+bool
+UnpackZstd(const SandboxInput & input, std::byte * buffer, std::size_t size)
+{
+  return ZSTD_decompress(buffer, size, input.file, input.size) == size; // errors are larger than any size
+}
+
 /** Unpacks a chunk, whose codec is the argument, to exactly as many bytes as a piece has. */
 void
 UnpackChunk(const SandboxInput & input, SandboxOutput & output)
@@ -46,7 +65,9 @@ UnpackChunk(const SandboxInput & input, SandboxOutput & output)
   const std::string & codec = input.arguments;
   std::byte * const buffer = output.GetBuffer();
   const std::size_t size = output.GetSize();
-  const bool isSound = (codec == "zlib" || codec == "gzip") && Inflate(input, buffer, size);
+  const bool isSound = codec == "blosc"  ? UnpackBlosc(input, buffer, size)
+                       : codec == "zstd" ? UnpackZstd(input, buffer, size)
+                                         : (codec == "zlib" || codec == "gzip") && Inflate(input, buffer, size);
   if (!isSound)
   {
     RefuseChunk(codec);

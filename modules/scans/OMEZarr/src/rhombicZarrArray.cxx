@@ -311,7 +311,7 @@ ZarrArray::TakeFill(const nlohmann::json & metadata)
 void
 ZarrArray::TakeCodec(const nlohmann::json & metadata)
 {
-  static const std::vector<std::string> codecs{ "zlib", "gzip" };
+  static const std::vector<std::string> codecs{ "blosc", "zlib", "gzip", "zstd" };
   const nlohmann::json compressor = metadata.value("compressor", nlohmann::json());
   const nlohmann::json id = compressor.is_object() ? compressor.value("id", nlohmann::json()) : nlohmann::json();
   m_Encoding = compressor.is_null() ? "raw" : id.is_string() ? id.get<std::string>() : "";
