@@ -63,9 +63,9 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "organ surfaces and pictures from medical scans")
-set(method "Rhombic reads DICOM, NIfTI, NRRD and MetaImage volumes, resamples them onto the
-face-centered cubic lattice, extracts closed isosurfaces by marching its cells,
-and renders them without a window or an X server.\n")
+set(method "Rhombic reads DICOM, NIfTI, NRRD, MetaImage and OME-Zarr volumes, resamples
+them onto the face-centered cubic lattice, extracts closed isosurfaces by
+marching its cells, and renders them without a window or an X server.\n")
 
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME ${program_package})
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)

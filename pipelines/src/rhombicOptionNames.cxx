@@ -23,6 +23,12 @@ constexpr OptionName OptionNames[] = {
   { "accept ScanReadOptions::onUneven, in ITK pipelines by reader->AcceptUnevenOn() and "
     "lattice->SetScan(reader->GetScan()),",
     "leave out --on-irregular=error" },
+  { "OMEZarrOptions::followsLinks", "--follow-links" },
+  { "OMEZarrOptions::level", "--level" },
+  { "OMEZarrOptions::voxelSize", "--voxel-size" },
+  { "ScanReadOptions::level", "--level" },
+  { "ScanReadOptions::voxelSize", "--voxel-size" },
+  { "ScanReadOptions::raw", "--raw" },
   { "ScanReadOptions::series", "--series" },
   { "LabelMapSource::table", "--label-table" },
   { "leave out RemoveTable() to keep them", "--keep-table keeps them" },

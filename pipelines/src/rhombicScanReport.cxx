@@ -118,6 +118,11 @@ ReportScan(const Scan & scan)
     report["frames"] = scan.numberOfFrames;
     report["frame"] = scan.frame;
   }
+  if (scan.numberOfLevels > 1)
+  {
+    report["levels"] = scan.numberOfLevels;
+    report["level"] = scan.level;
+  }
   ReportFolder(scan, report);
   return report;
 }

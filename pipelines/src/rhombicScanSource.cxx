@@ -359,9 +359,12 @@ LoadVolume(const ScanSource & source, const Events & events)
   events.Note(DescribeGrid(scan));
   if (IsMapped(scan.image))
   {
-    events.Note(
-      "the voxels stay in their file and are read where they are needed, as they would take more than half of "
-      "the memory that is allowed");
+    const bool isUnpacked = scan.format == "OME-Zarr";
+    events.Note(isUnpacked
+                  ? "the voxels were unpacked to a temporary file (in the folder TMPDIR) and are read from there where "
+                    "they are needed, as they do not fit into the memory that is allowed"
+                  : "the voxels stay in their file and are read where they are needed, as they would take more "
+                    "than half of the memory that is allowed");
   }
   NoteAll(scan.notes, events);
   NoteAll(scan.fileNotes, events);

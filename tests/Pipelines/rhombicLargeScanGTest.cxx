@@ -1,6 +1,7 @@
 #include "rhombicFailure.h"
 #include "rhombicMappedVoxels.h"
 #include "rhombicMeshScan.h"
+#include "rhombicOMEZarrTestFolder.h"
 #include "rhombicResampleScan.h"
 #include "rhombicScanReader.h"
 #include "rhombicScanWriter.h"
@@ -193,6 +194,34 @@ TEST_F(LargeScan, MappedVoxelsAreThoseThatAreRead)
     other.FillBuffer(0.0f);
   }
   EXPECT_EQ(before == ReadFile(path), true) << "the file was changed";
+}
+
+TEST_F(LargeScan, OMEZarrIsUnpackedToATemporaryFile)
+{
+  const auto image = MakeTall<std::int16_t>();
+  rhombictest::OMEZarrTestFolder zarr;
+  zarr.shape = { 800, 40, 40 };
+  zarr.chunks = { 64, 16, 32 };
+  zarr.codec = rhombictest::DeflateCodecs().front();
+  zarr.transformations = R"([{"type": "scale", "scale": [1000, 1000, 1000]}])"; // micrometres
+  const std::int16_t * const values = image->GetBufferPointer();
+  const fs::path path =
+    zarr.Write(m_Folder.Path() / "tall.ome.zarr", std::vector<std::int16_t>(values, values + 40 * 40 * 800));
+  const Outcome whole = this->Mesh(path, Plenty);
+  EXPECT_EQ(whole.notes.find("temporary file"), std::string::npos) << whole.notes;
+  EXPECT_EQ(whole.bytes == this->Mesh(this->Write<std::int16_t>("tall.nii"), Plenty).bytes, true);
+  try
+  {
+    const Outcome parts = this->Mesh(path, 790'000);
+    EXPECT_NE(parts.notes.find("temporary file"), std::string::npos) << parts.notes;
+    EXPECT_NE(parts.notes.find("slabs"), std::string::npos) << parts.notes;
+    EXPECT_EQ(parts.bytes == whole.bytes, true);
+  }
+  catch (const rhombic::Failure & failure)
+  {
+    const std::string sentence = failure.GetDescription();
+    EXPECT_NE(sentence.find("it is in memory itself"), std::string::npos) << sentence;
+  }
 }
 
 TEST_F(LargeScan, CompressedFilesAreRefusedWithTheCommandThatUnpacksThem)

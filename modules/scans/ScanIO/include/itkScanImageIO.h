@@ -18,16 +18,16 @@ namespace itk
  * \code
  * itk::ScanImageIOFactory::RegisterOneFactory();
  * const auto reader = itk::ImageFileReader<itk::Image<short, 3>>::New();
- * reader->SetFileName("head/"); // a DICOM folder, or a DICOM, NIfTI, NRRD or MetaImage file
+ * reader->SetFileName("head/"); // a DICOM or OME-Zarr folder, or a DICOM, NIfTI, NRRD or MetaImage file
  * reader->Update();
  * \endcode
  *
  * It reads what rhombic::OpenScan() reads, and gives the same values and positions, with these differences:
  *
- * - Its component type is the one that a NIfTI, NRRD or MetaImage file stores, also CHAR, UINT, LONG, ULONG and DOUBLE;
- *   FLOAT where the file scales its values. That of DICOM is UCHAR, SHORT, USHORT, INT or FLOAT. Where DICOM headers
- *   allow values beyond SHORT (16 stored bits with an intercept), ReadImageInformation() reads the voxels to know
- *   whether there are any, and keeps them for the next Read(). Otherwise it reads headers only.
+ * - Its component type is the one that a NIfTI, NRRD, MetaImage or OME-Zarr file stores, also CHAR, UINT, LONG, ULONG
+ *   and DOUBLE; FLOAT where the file scales its values. That of DICOM is UCHAR, SHORT, USHORT, INT or FLOAT. Where
+ *   DICOM headers allow values beyond SHORT (16 stored bits with an intercept), ReadImageInformation() reads the voxels
+ *   to know whether there are any, and keeps them for the next Read(). Otherwise it reads headers only.
  * - The reader converts values to its own pixel type as ITK does: with a cast.
  * - Several volumes in a NIfTI, NRRD or MetaImage file, pictures, vectors, complex numbers, colours, texts and kinds of
  *   DICOM images that OpenScan() does not read are left to ITK: CanReadFile() is false.

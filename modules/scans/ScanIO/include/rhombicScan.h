@@ -106,7 +106,7 @@ struct Scan
   /** Names and colours of a label map's values, where its file has them; empty for other scans. */
   LabelTable labels;
 
-  std::string format;     ///< "DICOM", "NIfTI", "NRRD" or "MetaImage"
+  std::string format;     ///< "DICOM", "NIfTI", "NRRD", "MetaImage", "OME-Zarr" or "raw"
   bool isOriented = true; ///< false when the file has no orientation in the patient: left and right are a guess
   std::string modality;   ///< DICOM's: CT (values are HU), MR, ...; empty when unknown
   std::string encoding;   ///< transfer syntax or compression of the voxels, in words
@@ -116,6 +116,8 @@ struct Scan
   std::string choice;                              ///< why the series that was read was chosen
   std::size_t numberOfFrames = 1;                  ///< volumes in the file
   std::size_t frame = 0;                           ///< the volume that was read, from 0
+  std::size_t numberOfLevels = 1;                  ///< of the pyramid of an OME-Zarr image
+  std::size_t level = 0;                           ///< the level that was read, from 0
   std::optional<StackReport> stack;                ///< for DICOM volumes
   std::optional<AffineReport> affine;              ///< for NIfTI volumes
   std::string scaling;                ///< how stored values became true ones, in words; empty for unchanged values

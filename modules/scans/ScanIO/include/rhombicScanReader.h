@@ -5,6 +5,7 @@
 
 #include "itkImageRegion.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -14,6 +15,15 @@
 
 namespace rhombic
 {
+
+/** \class RawLayout
+ * \brief What a file of bare voxels does not tell: x fastest, z slowest, nothing before and nothing behind. */
+struct RawLayout
+{
+  std::array<std::size_t, 3> size{}; ///< along x, y and z
+  itk::IOComponentEnum type = itk::IOComponentEnum::UNKNOWNCOMPONENTTYPE;
+  bool isBigEndian = false;
+};
 
 /** \class ScanReadOptions
  * \brief Choices of a series or volume, irregular input to accept, and limits. */
@@ -45,6 +55,16 @@ struct ScanReadOptions
 
   /** For files of several volumes without a \a frame. When accepted, the first volume is read. */
   Policy onSeveralFrames = Policy::Refuse;
+
+  /** The level of the pyramid of an OME-Zarr image, from 0, the finest. Other formats have level 0 only. */
+  std::size_t level = 0;
+
+  /** The size of a voxel along x, y and z in mm, for files of bare voxels, and OME-Zarr images that do not tell
+   * it; an error for others. */
+  std::optional<std::array<double, 3>> voxelSize;
+
+  /** For a file of bare voxels, whatever its name; needs the \a voxelSize. Nothing, the default, for other files. */
+  std::optional<RawLayout> raw;
 
   /** For DICOM files of one slice. When accepted, they are volumes of one slice, in which padding is left as it is. Its
    * step is SpacingBetweenSlices for MR and 1 mm for others, as by itk::GDCMImageIO. */
@@ -85,15 +105,16 @@ struct UnreadScan
 
   bool isTypeCertain = true; ///< whether the headers tell that the voxels fit into the pixel type of \a scan
 
-  std::optional<NativeVoxels> native = std::nullopt; ///< of a NIfTI, NRRD or MetaImage file of one volume
+  std::optional<NativeVoxels> native = std::nullopt; ///< of formats other than DICOM, of one volume
 };
 
 /** Opens a scan or label map: a folder of DICOM slices, searched with its subfolders; a DICOM file that holds a volume
- * (enhanced multi-frame, or a segmentation); or a NIfTI-1 or -2 (.nii, .hdr with .img, either with .gz), NRRD (.nrrd,
- * .nhdr) or MetaImage (.mha, .mhd) file. A folder of such files without any DICOM file holds masks, and label maps if
- * need be, of one grid: they are read as one label map. A label keeps its value, from 1 to 65,535, if no label before
- * it has the same; otherwise it gets the number after the largest one so far. Labels that overlap, there, in a DICOM
- * segmentation or in the layers of a .seg.nrrd, are in layers (Scan::furtherLayers).
+ * (enhanced multi-frame, or a segmentation); a folder of OME-Zarr 0.4 (OMEZarrImage); a file of bare voxels
+ * (ScanReadOptions::raw); or a NIfTI-1 or -2 (.nii, .hdr with .img, either with .gz), NRRD (.nrrd, .nhdr) or MetaImage
+ * (.mha, .mhd) file. A folder of such files without any DICOM file holds masks, and label maps if need be, of one grid:
+ * they are read as one label map. A label keeps its value, from 1 to 65,535, if no label before it has the same;
+ * otherwise it gets the number after the largest one so far. Labels that overlap, there, in a DICOM segmentation or in
+ * the layers of a .seg.nrrd, are in layers (Scan::furtherLayers).
  *
  * Values are rescaled by the slope and intercept of the file (to HU for CT). The pixel type is the stored one where
  * ScanImage has it and rescaling keeps it; otherwise int8 becomes int16; uint32, int64 and uint64 become int32 if all

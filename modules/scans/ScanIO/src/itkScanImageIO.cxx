@@ -238,7 +238,7 @@ ScanImageIOFactory::GetITKSourceVersion() const
 const char *
 ScanImageIOFactory::GetDescription() const
 {
-  return "Makes ScanImageIO, which reads DICOM, NIfTI, NRRD and MetaImage with Rhombic's checks";
+  return "Makes ScanImageIO, which reads DICOM, NIfTI, NRRD, MetaImage and OME-Zarr with Rhombic's checks";
 }
 
 void

@@ -3,6 +3,7 @@
 
 #include "rhombicScanReader.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <vector>
 
@@ -12,9 +13,22 @@ namespace rhombic
 /** \file
  * The formats between which OpenScan() chooses. */
 
-/** Opens a NIfTI, NRRD or MetaImage file. Throws Failure, ITK's exceptions and std::bad_alloc. */
+/** Opens a NIfTI, NRRD or MetaImage file, or one of bare voxels (see ScanReadOptions::raw). Throws Failure, ITK's
+ * exceptions and std::bad_alloc. */
 UnreadScan
 OpenVolumeFile(const std::filesystem::path & path, const ScanReadOptions & options);
+
+/** Opens a folder of OME-Zarr. Throws Failure, ITK's exceptions and std::bad_alloc. */
+UnreadScan
+OpenOMEZarr(const std::filesystem::path & folder, const ScanReadOptions & options);
+
+/** Sets Scan::frame, the volume of a file to read, and Scan::numberOfFrames. Throws Failure: Unreadable when there are
+ * several volumes without a choice, unless the options accept the first; Usage when there is no such volume. */
+void
+ChooseFrame(std::uintmax_t numberOfFrames,
+            const ScanReadOptions & options,
+            const std::filesystem::path & path,
+            Scan & scan);
 
 /** Opens a series (see ScanReadOptions::series) of the DICOM slices in a folder and its subfolders. Throws Failure and
  * the exceptions of libraries. */

@@ -1,6 +1,7 @@
 #include "rhombicScanReader.h"
 
 #include "rhombicFailure.h"
+#include "rhombicOMEZarrImage.h"
 #include "rhombicScanFormats.h"
 #include "rhombicVolumeRefusal.h"
 
@@ -31,24 +32,53 @@ IsFolder(const fs::path & path)
   return fs::is_directory(status);
 }
 
+void
+RequireNoSeries(const fs::path & path, const ScanReadOptions & options)
+{
+  FailIf(!options.series.empty(),
+         FailureKind::Usage,
+         "Cannot choose a series of " + path.string() + ": only folders of DICOM files have series; leave it out.");
+}
+
+/** Throws Failure(Usage) for choices that the format of an input does not have. */
+void
+RequireNoFurtherChoices(const fs::path & path, bool isFolder, const ScanReadOptions & options)
+{
+  FailIf(options.raw && isFolder,
+         FailureKind::Usage,
+         "Cannot read " + path.string() +
+           " as a file of bare voxels: it is a folder; leave out ScanReadOptions::raw, or name the file.");
+  FailIf(options.level > 0,
+         FailureKind::Usage,
+         "Cannot read level " + std::to_string(options.level) + " of " + path.string() +
+           ": only OME-Zarr folders have levels; leave out ScanReadOptions::level.");
+  FailIf(options.voxelSize && !options.raw,
+         FailureKind::Usage,
+         "The size of the voxels of " + path.string() +
+           " can't be given, as only files of bare voxels and OME-Zarr folders may lack it; leave out "
+           "ScanReadOptions::voxelSize.");
+}
+
 UnreadScan
 Open(const fs::path & path, const ScanReadOptions & options)
 {
-  if (IsFolder(path))
+  const bool isFolder = IsFolder(path);
+  if (isFolder && IsZarr(path) && !options.raw)
+  {
+    RequireNoSeries(path, options);
+    return OpenOMEZarr(path, options);
+  }
+  RequireNoFurtherChoices(path, isFolder, options);
+  if (isFolder)
   {
     const std::vector<fs::path> masks = FindMasks(path, options.followsLinks);
     return masks.empty() ? OpenDicomFolder(path, options) : OpenLabelFiles(masks, options);
   }
-  if (VolumeFormatOf(path).empty())
+  if (VolumeFormatOf(path).empty() && !options.raw)
   {
     return OpenDicomFile(path, options);
   }
-  if (!options.series.empty())
-  {
-    throw Failure(FailureKind::Usage,
-                  "Cannot choose a series of " + path.string() +
-                    ": only folders of DICOM files have series; leave it out.");
-  }
+  RequireNoSeries(path, options);
   return OpenVolumeFile(path, options);
 }
 
@@ -116,7 +146,8 @@ ListSeries(const fs::path & path, const ScanReadOptions & options)
 {
   return ReadOrFail(path, [&path, &options] {
     const bool isFolder = IsFolder(path);
-    const bool hasSeries = isFolder ? FindMasks(path, options.followsLinks).empty() : VolumeFormatOf(path).empty();
+    const bool hasSeries = isFolder ? !IsZarr(path) && FindMasks(path, options.followsLinks).empty()
+                                    : VolumeFormatOf(path).empty() && !options.raw;
     return hasSeries ? ListDicomSeries(path, isFolder, options) : SeriesList();
   });
 }

@@ -26,7 +26,8 @@ FindTable(const Scan & scan, const LabelMapSource & source)
 {
   if (!source.table.empty())
   {
-    FailIf(source.paths.size() > 1 || (scan.format != "DICOM" && fs::is_directory(source.GetFirstPath())),
+    FailIf(source.paths.size() > 1 ||
+             (scan.format != "DICOM" && scan.format != "OME-Zarr" && fs::is_directory(source.GetFirstPath())),
            FailureKind::Usage,
            "The label table " + source.table.string() +
              " can't name the labels of several files, which are called as their files and numbered in their "
@@ -286,6 +287,9 @@ ReadLabelMap(const LabelMapSource & source,
   ScanReadOptions mapOptions = options;
   mapOptions.series.clear(); // chosen for the scan, not for the map
   mapOptions.frame.reset();
+  mapOptions.level = 0;
+  mapOptions.voxelSize.reset();
+  mapOptions.raw.reset();
   LabelMap map;
   if (source.probabilities.empty())
   {

@@ -98,6 +98,10 @@ ReadNRRDVolume(const std::filesystem::path & path);
 StoredVolume
 ReadMetaImageVolume(const std::filesystem::path & path);
 
+/** A file of bare voxels, as the options tell. Throws Failure(Usage) when they contradict it. */
+StoredVolume
+DescribeRawVolume(const std::filesystem::path & path, const ScanReadOptions & options);
+
 ///@}
 
 /** \name Voxels */
@@ -129,6 +133,13 @@ ReadVolumePixels(StoredType type,
  * holds them, or the system does not map it. */
 std::optional<ScanImage>
 MapVoxels(const StoredVolume & volume, std::uintmax_t frame);
+
+/** An image whose pixels are a temporary file without a name, which goes away with it: for voxels that do not fit into
+ * memory and are not stored as an image holds them. Their values are 0. Nothing where \a type is not the pixels' type.
+ * Throws Failure(Memory) when there is no room, or the folder of temporary files is in memory itself. \a path names
+ * the scan. */
+std::optional<ScanImage>
+NewImageInTemporaryFile(StoredType type, const VolumeGeometry & geometry, const std::filesystem::path & path);
 
 /** Reads \a count voxels into \a buffer, as they are stored, or as floats when they are scaled. Throws what \a source
  * throws. */

@@ -1,6 +1,7 @@
 #include "rhombicScanFormats.h"
 
 #include "rhombicCompressedFile.h"
+#include "rhombicFiniteValues.h"
 #include "rhombicLabelTableFormats.h"
 #include "rhombicLabelLayers.h"
 #include "rhombicMemoryBudget.h"
@@ -26,27 +27,6 @@ namespace rhombic
 {
 namespace
 {
-
-/** Sets Scan::frame, the volume of a file to read, and Scan::numberOfFrames. Throws Failure: Unreadable when there are
- * several volumes without a choice, unless the options accept the first; Usage when there is no such volume. */
-void
-ChooseFrame(std::uintmax_t numberOfFrames,
-            const ScanReadOptions & options,
-            const std::filesystem::path & path,
-            Scan & scan)
-{
-  const std::size_t frame = options.frame.value_or(0);
-  RefuseOtherIf(!options.frame && numberOfFrames > 1 && options.onSeveralFrames == ScanReadOptions::Policy::Refuse,
-                path,
-                "it holds " + std::to_string(numberOfFrames) +
-                  " volumes; choose one with ScanReadOptions::frame, from 0 to " + std::to_string(numberOfFrames - 1));
-  FailIf(options.frame && frame >= numberOfFrames,
-         FailureKind::Usage,
-         "Cannot read volume " + std::to_string(frame) + " of " + path.string() + ": it holds " +
-           std::to_string(numberOfFrames) + ", counted from 0; choose another with ScanReadOptions::frame.");
-  scan.numberOfFrames = numberOfFrames;
-  scan.frame = frame;
-}
 
 /** Reads the values of one frame from groups of a value for each frame. False at the end of the stream. */
 bool
@@ -225,52 +205,11 @@ ReadHeader(const fs::path & path, const ScanReadOptions & options, Scan & scan)
   {
     return ReadNIfTIVolume(path, options, scan);
   }
-  const StoredVolume volume = scan.format == "NRRD" ? ReadNRRDVolume(path) : ReadMetaImageVolume(path);
+  const StoredVolume volume = scan.format == "raw"    ? DescribeRawVolume(path, options)
+                              : scan.format == "NRRD" ? ReadNRRDVolume(path)
+                                                      : ReadMetaImageVolume(path);
   CheckGeometry(volume.geometry, path, volume.matrix, options.onTilted, scan.notes);
   return volume;
-}
-
-/** The lowest finite value; infinity when there is none. */
-template <typename TValue>
-TValue
-LowestFinite(const TValue * begin, const TValue * end)
-{
-  TValue lowest = std::numeric_limits<TValue>::infinity();
-  std::for_each(
-    begin, end, [&lowest](TValue value) { lowest = std::isfinite(value) ? std::min(lowest, value) : lowest; });
-  return lowest;
-}
-
-/** Replaces values that are not finite, which would spread when the scan is resampled, by the lowest finite value,
- * which \a findLowest gives. Returns their number. Throws Failure when there is no finite value. */
-template <typename TValue, typename TFind>
-std::size_t
-ReplaceNotFinite(TValue * begin, TValue * end, const fs::path & path, const TFind & findLowest)
-{
-  const auto isOther = [](TValue value) { return !std::isfinite(value); };
-  const auto count = static_cast<std::size_t>(std::count_if(begin, end, isOther));
-  if (count > 0)
-  {
-    const TValue lowest = findLowest();
-    RefuseVolumeIf(
-      !std::isfinite(lowest), path, "none of its values is a finite number; export it again from its source");
-    std::replace_if(begin, end, isOther, lowest);
-  }
-  return count;
-}
-
-/** ReplaceNotFinite() in an image of floats. */
-std::size_t
-ReplaceNotFinite(const ScanImage & image, const fs::path & path)
-{
-  const auto * const pointer = std::get_if<itk::Image<float, 3>::Pointer>(&image);
-  if (pointer == nullptr)
-  {
-    return 0;
-  }
-  float * const begin = (*pointer)->GetBufferPointer();
-  float * const end = begin + (*pointer)->GetBufferedRegion().GetNumberOfPixels();
-  return ReplaceNotFinite(begin, end, path, [=] { return LowestFinite(begin, end); });
 }
 
 /** The lowest finite value of a file's only frame, read in pieces. */
@@ -340,6 +279,25 @@ ReadLayers(const StoredVolume & volume,
 } // namespace
 
 void
+ChooseFrame(std::uintmax_t numberOfFrames,
+            const ScanReadOptions & options,
+            const std::filesystem::path & path,
+            Scan & scan)
+{
+  const std::size_t frame = options.frame.value_or(0);
+  RefuseOtherIf(!options.frame && numberOfFrames > 1 && options.onSeveralFrames == ScanReadOptions::Policy::Refuse,
+                path,
+                "it holds " + std::to_string(numberOfFrames) +
+                  " volumes; choose one with ScanReadOptions::frame, from 0 to " + std::to_string(numberOfFrames - 1));
+  FailIf(options.frame && frame >= numberOfFrames,
+         FailureKind::Usage,
+         "Cannot read volume " + std::to_string(frame) + " of " + path.string() + ": it holds " +
+           std::to_string(numberOfFrames) + ", counted from 0; choose another with ScanReadOptions::frame.");
+  scan.numberOfFrames = numberOfFrames;
+  scan.frame = frame;
+}
+
+void
 RequireVoxels(const std::vector<std::uintmax_t> & sizes,
               bool areAtEnd,
               const std::filesystem::path & header,
@@ -407,7 +365,7 @@ UnreadScan
 OpenVolumeFile(const fs::path & path, const ScanReadOptions & options)
 {
   Scan scan;
-  scan.format = VolumeFormatOf(path);
+  scan.format = options.raw ? "raw" : VolumeFormatOf(path);
   const StoredVolume volume = ReadHeader(path, options, scan);
   const auto segments = scan.format == "NRRD" ? ReadNRRDHeader(path).keyValues : TextHeader::Texts();
   const bool isLayered = volume.numberOfFrames > 1 && !options.frame && HasSegments(segments);
@@ -439,12 +397,7 @@ OpenVolumeFile(const fs::path & path, const ScanReadOptions & options)
       return;
     }
     read.image = ReadOrMapVoxels(volume, read.frame, path, options);
-    if (const std::size_t count = ReplaceNotFinite(read.image, path); count > 0)
-    {
-      read.notes.push_back(path.string() + " holds " +
-                           Count(count, "value that is no finite number", "values that are not finite numbers") +
-                           "; the lowest value took their place.");
-    }
+    ReplaceNotFinite(path, read);
   };
   if (volume.numberOfFrames == 1)
   {
