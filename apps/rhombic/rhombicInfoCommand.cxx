@@ -76,6 +76,12 @@ PrintEncoding(const Scan & scan)
               std::to_string(scan.numberOfFrames) + ", of which this is " + std::to_string(scan.frame) +
                 "; see another one with --frame N, from 0 to " + std::to_string(scan.numberOfFrames - 1));
   }
+  if (scan.numberOfLevels > 1)
+  {
+    PrintLine("levels",
+              std::to_string(scan.numberOfLevels) + ", of which this is " + std::to_string(scan.level) +
+                "; see another one with --level N, from 0 to " + std::to_string(scan.numberOfLevels - 1));
+  }
 }
 
 void

@@ -21,6 +21,9 @@ struct ScanOptions
   std::string scan;
   std::string series;
   std::optional<std::size_t> frame;
+  std::size_t level = 0;
+  std::string voxelSize;
+  std::string raw;
   std::string onIrregular = "resample";
   std::string onGap = "error";
   std::uint64_t maximumMemory = 0;

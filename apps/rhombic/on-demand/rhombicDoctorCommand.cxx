@@ -38,7 +38,8 @@ Doctor()
   std::cout
     << "built for    DICOM folders and multi-frame files (uncompressed, JPEG, JPEG-LS, JPEG 2000, RLE), DICOM SEG,\n"
        "             NIfTI-1 and -2 (.nii, or .hdr with .img, either with .gz), Analyze 7.5 (--analyze),\n"
-       "             NRRD (.nrrd, .nhdr, .seg.nrrd), MetaImage (.mha, .mhd), lattice volumes (.fcc.nrrd)\n";
+       "             NRRD (.nrrd, .nhdr, .seg.nrrd), MetaImage (.mha, .mhd), OME-Zarr 0.4 folders,\n"
+       "             lattice volumes (.fcc.nrrd)\n";
   for (const BackendProbe & probe : SurfaceRenderer::ProbeBackends())
   {
     std::cout << "display      " << probe.name << ": " << (probe.usable ? "works, " : "no, ") << probe.detail << '\n';
