@@ -486,6 +486,9 @@ TEST_F(OMEZarr, FoldersWithoutAnImageSayWhatTheyHold)
 {
   OMEZarrTestFolder zarr;
   zarr.Write(m_Folder, std::vector<float>(120));
+  EXPECT_TRUE(rhombic::HoldsOMEZarrImage(m_Folder));
+  EXPECT_FALSE(rhombic::HoldsOMEZarrImage(m_Folder / "0"));
+  EXPECT_FALSE(rhombic::HoldsOMEZarrImage(m_Folder / "0/0"));
   const auto kindOf = [this](const fs::path & folder, const std::string & named) {
     return KindOf([&] { OMEZarrImage image(folder); }, named);
   };
@@ -496,6 +499,7 @@ TEST_F(OMEZarr, FoldersWithoutAnImageSayWhatTheyHold)
   EXPECT_EQ(kindOf(m_Folder, "multiscales"), FailureKind::NotFound);
   OMEZarrTestFolder::WriteText(m_Folder / "zarr.json", "{}");
   EXPECT_TRUE(rhombic::IsZarr(m_Folder));
+  EXPECT_TRUE(rhombic::HoldsOMEZarrImage(m_Folder)) << "the failure tells the version";
   EXPECT_EQ(kindOf(m_Folder, "version 3"), FailureKind::Unreadable);
   EXPECT_FALSE(rhombic::IsZarr(m_Folder.parent_path()));
 }

@@ -110,6 +110,7 @@ TEST_F(OMEZarrVolume, IsDescribed)
   EXPECT_NE(scan.notes.front().find("left, posterior and superior"), std::string::npos);
   EXPECT_EQ(scan.files.size(), 2u + 7u) << "metadata, and the chunks that there are";
   EXPECT_EQ(ImageOf<std::int16_t>(scan).GetPixel({ { 5, 4, 3 } }), 0) << "the fill value";
+  EXPECT_EQ(rhombic::OpenScan(m_Image).scan.files.size(), 2u);
   ScanReadOptions options;
   options.series = "1";
   EXPECT_EQ(KindOfReading(m_Image, "series", options), FailureKind::Usage);

@@ -55,9 +55,10 @@ public:
   itkGetConstMacro(Frame, SizeValueType);
   ///@}
 
+  using VoxelSizeType = Vector<double, 3>;
+
   /** The size of a voxel along x, y and z in mm, for images that do not tell it. 0, the default: not given. */
   ///@{
-  using VoxelSizeType = Vector<double, 3>;
   itkSetMacro(VoxelSize, VoxelSizeType);
   itkGetConstMacro(VoxelSize, VoxelSizeType);
   ///@}

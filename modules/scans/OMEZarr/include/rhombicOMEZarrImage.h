@@ -26,6 +26,11 @@ class ZarrArray;
 bool
 IsZarr(const std::filesystem::path & folder);
 
+/** Whether a folder holds an image of OME-Zarr, also one that OMEZarrImage refuses: not so for groups of images, whose
+ * folders hold them, and arrays alone. */
+bool
+HoldsOMEZarrImage(const std::filesystem::path & folder);
+
 /** Choices of OMEZarrImage. */
 struct OMEZarrOptions
 {
@@ -124,6 +129,13 @@ public:
   /** The memory that reading takes besides its result, in bytes. */
   std::uintmax_t
   GetWorkingMemory() const;
+
+  /** The files of metadata that were read, sorted. */
+  const std::vector<std::filesystem::path> &
+  GetMetadataFiles() const
+  {
+    return m_Metadata;
+  }
 
   /** Metadata, and the chunks of a frame that there are, sorted. Throws Failure(Unreadable). */
   std::vector<std::filesystem::path>

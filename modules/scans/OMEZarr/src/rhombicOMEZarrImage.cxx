@@ -43,6 +43,19 @@ IsZarr(const fs::path & folder)
   return has(".zattrs") || has(".zgroup") || has(".zarray") || has("zarr.json");
 }
 
+bool
+HoldsOMEZarrImage(const fs::path & folder)
+{
+  try
+  {
+    return IsZarr(folder) && OMEZarrImage(folder).GetNumberOfLevels() > 0;
+  }
+  catch (const Failure & failure)
+  {
+    return failure.GetKind() != FailureKind::NotFound;
+  }
+}
+
 OMEZarrImage::OMEZarrImage(const fs::path & folder, const OMEZarrOptions & options)
 {
   const OMEZarrMetadata metadata = ReadOMEZarrMetadata(folder, options);
@@ -54,6 +67,7 @@ OMEZarrImage::OMEZarrImage(const fs::path & folder, const OMEZarrOptions & optio
   }
   m_Array = array;
   m_Metadata = { folder / ".zattrs", folder / metadata.array / ".zarray" };
+  std::sort(m_Metadata.begin(), m_Metadata.end());
   m_NumberOfLevels = metadata.numberOfLevels;
   m_Notes = metadata.notes;
   const ZarrNumbers & shape = array->GetShape();

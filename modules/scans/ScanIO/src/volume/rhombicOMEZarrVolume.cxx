@@ -186,6 +186,7 @@ OpenOMEZarr(const fs::path & folder, const ScanReadOptions & options)
   scan.format = "OME-Zarr";
   scan.encoding = image.GetEncoding();
   scan.isOriented = false;
+  scan.files = image.GetMetadataFiles();
   scan.level = options.level;
   scan.numberOfLevels = image.GetNumberOfLevels();
   ChooseFrame(image.GetNumberOfFrames(), options, folder, scan);
