@@ -66,6 +66,28 @@ TEST_F(MeshCommand, ScenesHoldTheSurfacesOfAPreset)
   }
 }
 
+TEST_F(MeshCommand, FilesOfBareVoxelsGiveTheMeshOfAHeaderThatSaysTheSame)
+{
+  std::ofstream volume(m_Folder.Path() / "volume.raw", std::ios::binary);
+  for (int n = 0; n < 20 * 20 * 20; ++n)
+  {
+    const int x = n % 20 - 9, y = n / 20 % 20 - 10, z = n / 400 - 10;
+    const int value = 5000 - 100 * (x * x + y * y + z * z);
+    volume.put(static_cast<char>(value & 255)).put(static_cast<char>(value >> 8 & 255)); // int16, little-endian
+  }
+  volume.close();
+  std::ofstream(m_Folder.Path() / "volume.mhd")
+    << "ObjectType = Image\nNDims = 3\nDimSize = 20 20 20\nElementSpacing = 0.005 0.005 0.01\nElementType = MET_SHORT\n"
+       "BinaryDataByteOrderMSB = False\nElementDataFile = volume.raw\n";
+  const auto outcome =
+    RunShell("rhombic -q mesh volume.mhd -t 0.5 -o header.ply\n"
+             "rhombic -q mesh volume.raw --raw 20x20x20,int16,le --voxel-size 5um,5um,0.01 -t 0.5 -o bare.ply\n"
+             "cmp header.ply bare.ply\n"
+             "test $(grep -c int16,le bare.ply.json) -gt 0",
+             m_Folder.Path());
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.output << outcome.errors;
+}
+
 TEST_F(MeshCommand, TheReportTellsWhatIsLeftOutOfTheLungs)
 {
   ASSERT_EQ(this->Mesh("--preset ct-lung -o lungs.stl").exitCode, 0);

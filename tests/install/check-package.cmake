@@ -30,7 +30,7 @@ file(REMOVE_RECURSE "${WORK}")
 run(${CPACK} -G DEB --config "${BUILD}/CPackConfig.cmake" -B "${WORK}/packages")
 
 unpack(rhombic)
-foreach(library libinsighttoolkit5 libvtk9 libopenimageio)
+foreach(library libinsighttoolkit5 libvtk9 libopenimageio libblosc1 libzstd1)
   if(NOT needed MATCHES "${library}")
     message(FATAL_ERROR "rhombic does not say that it needs ${library}: ${needed}")
   endif()
