@@ -2,6 +2,7 @@
 #include "rhombicBatchCases.h"
 
 #include "rhombicFailure.h"
+#include "rhombicOMEZarrTestFolder.h"
 #include "rhombicTemporaryFolder.h"
 
 #include <gtest/gtest.h>
@@ -81,6 +82,20 @@ TEST(BatchCases, ATreeHasACaseForEachSeriesAndVolume)
   EXPECT_EQ(named.front().name, "pair.hdr");
   EXPECT_EQ(named.front().files.size(), 2u) << "header and voxels";
   EXPECT_EQ(named.back().name, "a_series");
+}
+
+TEST(BatchCases, AFolderOfOMEZarrIsACase)
+{
+  const TemporaryFolder folder;
+  const rhombictest::OMEZarrTestFolder zarr;
+  zarr.Write(folder.Path() / "a.ome.zarr", std::vector<std::uint8_t>(120));
+  zarr.Write(folder.Path() / "group.zarr/0", std::vector<std::uint8_t>(120));
+  WriteFile(folder.Path() / "group.zarr/.zattrs", R"({"bioformats2raw.layout": 3})");
+  const auto cases = rhombic::FindCases(folder.Path(), { true, {}, {} }).cases;
+  ASSERT_EQ(cases.size(), 2u);
+  EXPECT_EQ(cases[0].name, "a.ome.zarr");
+  EXPECT_EQ(cases[0].files.size(), 1u + 1u + 1u + 8u) << "metadata and chunks";
+  EXPECT_EQ(cases[1].name, "group.zarr_0");
 }
 
 TEST(BatchCases, NamesStayWhenScansAreAdded)

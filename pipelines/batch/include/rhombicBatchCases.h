@@ -58,8 +58,8 @@ IsBIDS(const std::filesystem::path & folder);
  *   manifest;
  * - a BIDS dataset (see IsBIDS()): each volume in a folder anat, with its label map (..._dseg) from there or from the
  *   derivatives, if a label map is there;
- * - any other folder: each DICOM series and each volume file in it and in its subfolders, but for hidden ones,
- *   symbolic links, and series of a single slice beside others;
+ * - any other folder: each DICOM series, volume file and image of OME-Zarr in it and in its subfolders, but for
+ *   hidden ones, symbolic links, and series of a single slice beside others;
  * - a single volume file.
  *
  * Throws Failure: NotFound when there are none, Usage for a mistake in a manifest, naming its line, and for a chosen

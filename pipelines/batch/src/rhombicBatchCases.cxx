@@ -1,6 +1,7 @@
 #include "rhombicBatchCases.h"
 
 #include "rhombicFailure.h"
+#include "rhombicOMEZarrImage.h"
 #include "rhombicScanReader.h"
 #include "rhombicFiles.h"
 #include "rhombicWording.h"
@@ -177,6 +178,11 @@ private:
   void
   Enter(const fs::path & folder)
   {
+    if (HoldsOMEZarrImage(folder))
+    {
+      this->Add(folder, "");
+      return;
+    }
     const FolderEntries entries = ListFolder(folder, m_Search.excluded);
     bool hasSlices = false;
     for (const fs::path & file : entries.files)
