@@ -12,5 +12,6 @@ log=build/dev/test.log
 echo "3 of 3: tests (log: $log)"
 status=0
 ctest --preset dev --parallel "$(nproc)" "$@" 2>&1 | tee "$log" || status=$?
+./tests/list-skipped.sh "$log" build/dev/Testing/Temporary/LastTest.log
 grep -E '^[0-9]+% tests passed' "$log" # after the lists of tests that were skipped or failed
 exit $status

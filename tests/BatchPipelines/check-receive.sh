@@ -4,7 +4,7 @@ set -euo pipefail
 source=$1
 export PATH="$2:$PATH"
 folder=$3
-command -v storescp dcmsend >/dev/null || { echo "dcmtk is not installed"; exit 77; }
+command -v storescp dcmsend >/dev/null || { echo "skipped: dcmtk is not installed"; exit 77; }
 
 rm -rf "$folder"
 mkdir -p "$folder"/{incoming,studies,results}

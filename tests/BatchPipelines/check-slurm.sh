@@ -7,9 +7,9 @@ source=$1
 export PATH="$2:$PATH:/usr/sbin"
 folder=$3
 for program in munged slurmctld slurmd sbatch snakemake python3; do
-  command -v $program >/dev/null || { echo "$program is not installed"; exit 77; }
+  command -v $program >/dev/null || { echo "skipped: $program is not installed"; exit 77; }
 done
-[ "$(id -u)" -eq 0 ] || { echo "slurmd has to be started by root"; exit 77; }
+[ "$(id -u)" -eq 0 ] || { echo "skipped: slurmd has to be started by root"; exit 77; }
 
 rm -rf "$folder"
 mkdir -p "$folder"

@@ -7,7 +7,7 @@ export PATH="$1:$PATH"
 folder=$2
 count=$3
 scripts=$(cd "$(dirname "$0")" && pwd)
-command -v python3 >/dev/null || { echo "python3 is not installed"; exit 77; }
+command -v python3 >/dev/null || { echo "skipped: python3 is not installed"; exit 77; }
 
 rm -rf "$folder"
 mkdir -p "$folder"

@@ -4,7 +4,7 @@ set -euo pipefail
 source=$1
 export PATH="$2:$PATH"
 folder=$3
-command -v snakemake >/dev/null || { echo "snakemake is not installed"; exit 77; }
+command -v snakemake >/dev/null || { echo "skipped: snakemake is not installed"; exit 77; }
 
 rm -rf "$folder"
 mkdir -p "$folder"

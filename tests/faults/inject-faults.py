@@ -124,7 +124,7 @@ def main():
     most = int(sys.argv[3]) if len(sys.argv) > 3 else 12
     chosen = sys.argv[4:] or list(COMMANDS)
     if shutil.which("strace") is None:
-        print("strace is not installed")
+        print("skipped: strace is not installed")
         return 77
     faults = defects = 0
     with tempfile.TemporaryDirectory() as base:

@@ -4,7 +4,7 @@
 set -euo pipefail
 program=$1
 work=$2
-command -v xvfb-run >/dev/null || exit 77
+command -v xvfb-run >/dev/null || { echo "skipped: xvfb-run is not installed"; exit 77; }
 rm -rf "$work"
 mkdir -p "$work/headless" "$work/x" "$work/x-beside-headless"
 env -u DISPLAY "$program" headless "$work/headless" | tee "$work/headless.txt"
