@@ -45,6 +45,18 @@ ReadOpacity(const YAML::Node & node)
   return *opacity;
 }
 
+/** Volumes in millilitres, not by YAML::Node::as<double>(), which reads numbers as the host's locale writes them. */
+double
+ReadVolume(const YAML::Node & node)
+{
+  const auto volume = ToNumber<double>(node.as<std::string>());
+  if (!volume)
+  {
+    throw YAMLMistake("has '" + node.as<std::string>() + "' where a volume in millilitres is expected");
+  }
+  return *volume;
+}
+
 /** Whether a look is glossy. */
 bool
 ReadGloss(const YAML::Node & node)
@@ -81,9 +93,9 @@ ParseSurface(const YAML::Node & node)
   }
   request.hasOwnOpacity = node["opacity"].IsDefined();
   request.opacity = request.hasOwnOpacity ? ReadOpacity(node["opacity"]) : 1.0;
-  request.finish.minimumVolume = node["min-volume"].as<double>(0.0);
-  request.finish.keepsLargestPart = node["largest"].as<bool>(false);
-  request.finish.fillsCavities = node["fill"].as<bool>(false);
+  request.finish.minimumVolume = node["min-volume"] ? ReadVolume(node["min-volume"]) : 0.0;
+  request.finish.keepsLargestPart = node["largest"] && node["largest"].as<bool>();
+  request.finish.fillsCavities = node["fill"] && node["fill"].as<bool>();
   request.finish.smoothing = ParseSmoothingLimit(node["smooth"].as<std::string>("0"));
   CheckSurfaceFinish(request.finish);
   return request;

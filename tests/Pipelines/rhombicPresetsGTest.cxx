@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <locale>
 #include <set>
 
 namespace
@@ -112,6 +113,37 @@ TEST(Presets, ReadEverythingASurfaceHas)
   EXPECT_FALSE(preset.surfaces[1].insideIsBelow);
 }
 
+/** Numbers with a comma, as in German, and digits in groups. */
+class CommaNumbers : public std::numpunct<char>
+{
+  char
+  do_decimal_point() const override
+  {
+    return ',';
+  }
+  char
+  do_thousands_sep() const override
+  {
+    return '.';
+  }
+  std::string
+  do_grouping() const override
+  {
+    return "\3";
+  }
+};
+
+TEST(Presets, DoNotDependOnTheLocaleOfTheHost)
+{
+  const std::locale before = std::locale::global(std::locale(std::locale::classic(), new CommaNumbers));
+  const auto preset =
+    rhombic::ParsePreset("name: x\nsurfaces: [{name: a, isovalue: 1.5, opacity: 0.5, min-volume: 0.2}]", "test");
+  std::locale::global(before);
+  EXPECT_EQ(preset.surfaces[0].isovalue, 1.5);
+  EXPECT_EQ(preset.surfaces[0].opacity, 0.5);
+  EXPECT_EQ(preset.surfaces[0].finish.minimumVolume, 0.2);
+}
+
 TEST(Presets, SuggestTheNearestName)
 {
   const auto sentence = DescriptionOfFailure([] { rhombic::FindPreset("ct-bnoe"); }, FailureKind::Usage);
@@ -134,6 +166,10 @@ TEST(Presets, RefuseDamagedFiles)
                              "name: x\nsurfaces: [{name: a, isovalue: 1, colr: 2}]",
                              "name: x\nsurfaces: [{name: a, isovalue: 1, parts: inner}]",
                              "name: x\nsurfaces: [{name: a, isovalue: 1, min-volume: -1}]",
+                             "name: x\nsurfaces: [{name: a, isovalue: 1, min-volume: 2 ml}]",
+                             "name: x\nsurfaces: [{name: a, isovalue: 1, min-volume: [2]}]",
+                             "name: x\nsurfaces: [{name: a, isovalue: 1, largest: 2}]",
+                             "name: x\nsurfaces: [{name: a, isovalue: 1, fill: maybe}]",
                              "name: x\nsurfaces: [{name: a, isovalue: 1}]\nrules: [{opacity: 0.5}]",
                              "name: x\nsurfaces: [{name: a, isovalue: 1}]\nrules: [{match: 'group:bone'}]",
                              "name: x\nsurfaces: [{name: a, isovalue: 1}]\nrules: [{match: a, opacity: 2}]",

@@ -112,7 +112,8 @@ TEST_F(Probabilities, AreRefusedWithASentence)
   const fs::path good = this->Write("good.nii", { { 0.3f, 0.6f } });
   const fs::path shifted = this->Write("shifted.nii", { { 0.3f, 0.6f } }, 1.0, 0.5);
   EXPECT_EQ(this->KindOf({ good, shifted }, "shifted.nii"), FailureKind::Geometry);
-  EXPECT_EQ(this->KindOf({ this->Write("hounsfield.nii", { { -900.0f, 40.0f } }) }, "no probabilities"),
+  EXPECT_EQ(this->KindOf({ this->Write("hounsfield.nii", { { -900.0f, 40.0f } }) },
+                         "no probabilities: their values are from -900 to 40 and"),
             FailureKind::Unreadable);
   EXPECT_EQ(this->KindOf({ good, m_Folder / "none.nii" }, "none.nii"), FailureKind::NotFound);
 }

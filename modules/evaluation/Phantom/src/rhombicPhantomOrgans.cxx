@@ -2,6 +2,7 @@
 
 #include "rhombicFailure.h"
 #include "rhombicPhantomAnatomy.h"
+#include "rhombicWording.h"
 
 #include <algorithm>
 
@@ -84,7 +85,7 @@ PhantomEnclosedBy(double threshold)
   if (!(threshold > AirHounsfield))
   {
     throw Failure(FailureKind::Usage,
-                  "A threshold of " + std::to_string(threshold) +
+                  "A threshold of " + FormatNumber(threshold) +
                     " HU encloses the endless air around the phantom; give one above -1000 HU.");
   }
   PhantomEnclosure enclosure{ {}, 0.0 };

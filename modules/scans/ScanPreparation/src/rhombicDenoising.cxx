@@ -79,7 +79,7 @@ FindSteps(double sigma, const RealImage::SpacingType & spacing)
   if (!(count <= mostSteps))
   {
     throw Failure(FailureKind::Usage,
-                  "Edge-preserving smoothing over " + std::to_string(sigma) + " mm would take " +
+                  "Edge-preserving smoothing over " + FormatNumber(sigma) + " mm would take " +
                     std::to_string(static_cast<std::uintmax_t>(std::min(count, 1e18))) +
                     " steps at this scan's spacing; use a smaller sigma, or Denoising::Kind::Gaussian.");
   }

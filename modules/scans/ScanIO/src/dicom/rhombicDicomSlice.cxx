@@ -1,5 +1,7 @@
 #include "rhombicDicomSlice.h"
 
+#include "rhombicWording.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -221,7 +223,7 @@ ReadFrame(const DicomDataSet & dataSet, std::size_t frame, DicomSlice & slice)
   const std::string stack = content.GetText(DicomTags::StackID);
   slice.distinctions = { ImageTypeOf(group(DicomTags::MRImageFrameTypeSequence).GetText(DicomTags::FrameType) +
                                      group(DicomTags::CTImageFrameTypeSequence).GetText(DicomTags::FrameType)),
-                         echo ? "echo time " + std::to_string(*echo) : "",
+                         echo ? "echo time " + FormatFixed(*echo, 6) : "",
                          times.empty() ? "" : "time " + std::to_string(times[0]),
                          stack.empty() ? "" : "stack " + NameCodeOf(stack),
                          "" };

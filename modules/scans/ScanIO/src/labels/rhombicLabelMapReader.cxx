@@ -152,8 +152,8 @@ FindCertainty(const std::vector<ProbabilityImage::Pointer> & volumes)
     }
   }
   throw Failure(FailureKind::Unreadable,
-                "The volumes hold no probabilities: their values are from " + std::to_string(lowest) + " to " +
-                  std::to_string(highest) + " and should be from 0 to 1, 100 or 255.");
+                "The volumes hold no probabilities: their values are from " + FormatNumber(lowest) + " to " +
+                  FormatNumber(highest) + " and should be from 0 to 1, 100 or 255.");
 }
 
 /** The most probable label of each voxel, where label n + 1 has the n-th volume, and 0 what is left to certainty.
