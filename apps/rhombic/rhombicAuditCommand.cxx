@@ -141,7 +141,7 @@ AddAuditCommand(CommandSettings & command)
     { "--max-tested",
       &AuditOptions::maximumTested,
       "triangles tested for self-intersections; of larger surfaces, so many evenly chosen ones; 0: none",
-      Checked(CLI::NonNegativeNumber),
+      NotBelowZero,
       ShowingDefault },
   };
   const auto options = std::make_shared<AuditOptions>();

@@ -146,7 +146,7 @@ AddMeshCommand(CommandSettings & command)
     { "--min-thickness",
       &MeshOptions::minimumThickness,
       "warn, before printing, where and on how much area walls are thinner than so many mm",
-      Checked(CLI::PositiveNumber) },
+      AboveZero },
     { "--require-watertight",
       &MeshOptions::requiresWatertight,
       "write no file with holes or other defects, but end with exit code 8; that triangles pass through each other is "

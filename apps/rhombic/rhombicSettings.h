@@ -55,6 +55,16 @@ inline const auto OfKind = [](SettingKind kind) { return [kind](SettingRow & row
 inline const auto Checked = [](const CLI::Validator & check) {
   return [check](SettingRow & row) { row.option->check(check); };
 };
+
+/** CLI11's check, whose own sentence tells the largest number there is, in 309 digits. */
+inline const auto CheckedAs = [](const CLI::Validator & check, const std::string & what) {
+  return Checked(CLI::Validator(check).operation([check, what](std::string & text) {
+    return check(text).empty() ? std::string() : "'" + text + "' is not " + what;
+  }));
+};
+inline const auto AboveZero = [](SettingRow & row) { CheckedAs(CLI::PositiveNumber, "a number above 0")(row); };
+inline const auto NotBelowZero = [](SettingRow & row) { CheckedAs(CLI::NonNegativeNumber, "a number from 0 on")(row); };
+
 inline const auto Excludes = [](const std::vector<std::string> & names) {
   return [names](SettingRow & row) { row.excludes = names; };
 };

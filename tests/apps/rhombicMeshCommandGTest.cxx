@@ -288,6 +288,19 @@ TEST_F(MeshCommand, ProbabilitiesBecomeSurfacesThatShareWalls)
   EXPECT_EQ(run("-o soft.nii").exitCode, 2);
 }
 
+TEST_F(MeshCommand, NumbersOutOfRangeAreNamedInAShortSentence)
+{
+  for (const auto & [arguments, sentence] :
+       std::vector<std::pair<std::string, std::string>>{ { "--spacing 0", "--spacing: '0' is not a number above 0" },
+                                                         { "--spacing x", "--spacing: 'x' is not a number above 0" },
+                                                         { "--frame -1", "--frame: '-1' is not a number from 0 on" } })
+  {
+    const auto outcome = this->Mesh(arguments + " -t 375.5 -o x.stl");
+    EXPECT_EQ(outcome.exitCode, 2) << arguments;
+    EXPECT_NE(outcome.errors.find(sentence), std::string::npos) << outcome.errors;
+  }
+}
+
 TEST_F(MeshCommand, OutputsTakeNobodysPlace)
 {
   const fs::path table = m_Folder.Path() / "table.csv";
