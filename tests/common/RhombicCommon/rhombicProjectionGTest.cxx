@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <new>
 #include <random>
 
 namespace
@@ -11,6 +13,15 @@ namespace
 using rhombic::Dot;
 using rhombic::Projection;
 using rhombic::Vector3;
+
+TEST(Projection, HasNoUnsetNumbers)
+{
+  alignas(Projection) std::array<unsigned char, sizeof(Projection)> memory;
+  memory.fill(0xff);
+  const auto * const projection = new (memory.data()) Projection;
+  EXPECT_EQ(projection->centre, Vector3{});
+  EXPECT_EQ(projection->frame.look, Vector3{});
+}
 
 TEST(Projection, LettersOfObliqueDirectionsNameTheLargestComponentFirst)
 {

@@ -14,9 +14,9 @@ namespace rhombic
 /** The axes of a picture, as LPS unit vectors at right angles: right = look x up. */
 struct ViewFrame
 {
-  Vector3 look;  ///< from the viewer into the picture
-  Vector3 up;    ///< towards the picture's top edge
-  Vector3 right; ///< towards the picture's right edge
+  Vector3 look{};  ///< from the viewer into the picture
+  Vector3 up{};    ///< towards the picture's top edge
+  Vector3 right{}; ///< towards the picture's right edge
 };
 
 /** The anatomical direction at each edge of a picture: L, R (left, right), A, P (anterior, posterior), H or F (head,
@@ -49,7 +49,7 @@ struct PicturePosition
 struct Projection
 {
   ViewFrame frame;
-  Vector3 centre;         ///< the LPS point in mm in the middle of the picture
+  Vector3 centre{};       ///< the LPS point in mm in the middle of the picture
   double pixelSize = 1.0; ///< width and height of a pixel in mm
   int width = 0;          ///< pixels
   int height = 0;         ///< pixels
