@@ -35,7 +35,7 @@ PrintGrid(const itk::ImageBase<3> & grid, bool isOriented)
   const auto & direction = grid.GetDirection();
   const auto & origin = grid.GetOrigin();
   PrintLine("size", FormatProduct(grid.GetLargestPossibleRegion().GetSize()) + " samples");
-  PrintLine("spacing", FormatProduct(grid.GetSpacing()) + " mm");
+  PrintLine("spacing", DescribeSpacing(grid.GetSpacing()));
   PrintLine("orientation",
             (isOriented ? OrientationLetters(direction) : "unknown") + ", " + HandednessOf(direction) + "-handed");
   PrintLine("origin",
@@ -148,7 +148,7 @@ PrintSeries(const ScanDescription & description)
   {
     PrintLine("series " + std::to_string(series.number),
               (series.modality.empty() ? "modality unknown" : series.modality) + ", " + FormatProduct(series.size) +
-                (series.spacing[0] > 0.0 ? " of " + FormatProduct(series.spacing) + " mm" : "") + ", " +
+                (series.spacing[0] > 0.0 ? " of " + DescribeSpacing(series.spacing) : "") + ", " +
                 Count(series.numberOfFiles, "file") + (series.kind.empty() ? "" : ", " + series.kind) +
                 (series.seriesNumber.empty() ? "" : ", SeriesNumber " + series.seriesNumber) + ", id " + series.id +
                 (series.chosen && !choice.empty() ? "  <- read: " + choice : ""));

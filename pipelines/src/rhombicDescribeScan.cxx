@@ -68,7 +68,7 @@ DescribeLabels(const Scan & scan,
 }
 
 ScanDescription
-DescribeVolume(const ScanSource & source, const LabelMapSource & labels)
+DescribeSourceVolume(const ScanSource & source, const LabelMapSource & labels)
 {
   ScanDescription description;
   const Scan & scan = description.volume.emplace<Scan>(ReadScan(source, {}));
@@ -100,7 +100,7 @@ DescribeSeries(const ScanSource & source, const LabelMapSource & labels)
   {
     if (!isListed || chosen != list.series.end())
     {
-      description = DescribeVolume(source, labels);
+      description = DescribeSourceVolume(source, labels);
     }
   }
   catch (const Failure & failure)

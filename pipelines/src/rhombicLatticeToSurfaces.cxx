@@ -23,11 +23,11 @@ NoteParts(const std::string & name, const EnclosedParts & parts, const Events & 
   std::vector<std::string> leftOut;
   if (parts.aroundBody > 0.0)
   {
-    leftOut.push_back(FormatMillilitres(parts.aroundBody) + " around the body");
+    leftOut.push_back(DescribeVolume(parts.aroundBody) + " around the body");
   }
   if (parts.numberOfSmall > 0)
   {
-    leftOut.push_back(Count(parts.numberOfSmall, "small part") + " of " + FormatMillilitres(parts.small));
+    leftOut.push_back(Count(parts.numberOfSmall, "small part") + " of " + DescribeVolume(parts.small));
   }
   if (!leftOut.empty())
   {
@@ -199,7 +199,7 @@ LatticeToSurfaces(const FCCVolume & volume,
       throw Failure(
         FailureKind::Empty,
         "Nothing can be extracted for " + request.name + " at " + FormatNumber(*request.isovalue) +
-          (enclosed ? " that lies in the body (" + FormatMillilitres(enclosed->aroundBody) + " around it are left out)"
+          (enclosed ? " that lies in the body (" + DescribeVolume(enclosed->aroundBody) + " around it are left out)"
                     : "") +
           "; try another threshold (rhombic info suggests some).");
     }

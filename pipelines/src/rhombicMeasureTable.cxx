@@ -72,8 +72,7 @@ SayIsosurface(double ml, const Surface & surface)
 {
   const auto & measures = surface.measures;
   return DescribeDifference(measures.GetVolumeError().value()) + " than the scan's isosurface encloses (" +
-         FormatFixed(ml, 1) + " +- " + FormatMillilitres(measures.isosurface->uncertainty / CubicMillimetresPerMl) +
-         ")";
+         DescribeVolume(ml, measures.isosurface->uncertainty / CubicMillimetresPerMl) + ")";
 }
 
 template <std::size_t Bound>
@@ -176,7 +175,7 @@ constexpr MeasureColumn Columns[] = {
     "mL",
     "The volume that the finished surface encloses.",
     [](const Surface & s) { return MillilitresOrNull(s.measures.volume); },
-    [](double ml, const Surface &) { return FormatMillilitres(ml); } },
+    [](double ml, const Surface &) { return DescribeVolume(ml); } },
   { "isosurface_volume_ml",
     "mL",
     "The volume inside the scan's isosurface, estimated from the lattice's samples.",
@@ -190,7 +189,7 @@ constexpr MeasureColumn Columns[] = {
     "mL",
     "The volume of the voxels of the label, or on the inner side of the threshold.",
     [](const Surface & s) { return MillilitresOrNull(s.measures.voxelVolume); },
-    [](double ml, const Surface &) { return "voxels " + FormatMillilitres(ml); } },
+    [](double ml, const Surface &) { return "voxels " + DescribeVolume(ml); } },
   { "volume_error_percent",
     "%",
     "By how much volume_ml is above its reference.",
@@ -205,7 +204,7 @@ constexpr MeasureColumn Columns[] = {
     "mm^2",
     "The area of the finished surface.",
     FindMeasure<&SurfaceMeasures::area>,
-    [](double area, const Surface &) { return FormatFixed(area / 100.0, 1) + " cm2"; } },
+    [](double area, const Surface &) { return DescribeArea(area); } },
   { "x_min_mm", "mm", "The lowest coordinate to the patient's left (LPS).", FindBound<0> },
   { "x_max_mm", "mm", "The highest coordinate to the patient's left (LPS).", FindBound<1> },
   { "y_min_mm", "mm", "The lowest coordinate to the patient's back (LPS).", FindBound<2> },
@@ -219,7 +218,7 @@ constexpr MeasureColumn Columns[] = {
     "mm",
     "The largest distance between two points of the surface.",
     FindMeasure<&SurfaceMeasures::longestDiameter>,
-    [](double diameter, const Surface &) { return "longest diameter " + FormatFixed(diameter, 1) + " mm"; } },
+    [](double diameter, const Surface &) { return "longest diameter " + DescribeLength(diameter); } },
   { "mean_scan_unit",
     "unit of the scan's values (HU for CT)",
     "The mean of the scan's values inside the surface.",

@@ -164,7 +164,7 @@ NoteFinish(const FileInspection & inspection, const MeshedSurface & surface)
     inspection.events.Note(surface.scene.name + ": " + NameSteps(inspection.settings.finish) +
                            " changed the volume by " + (change > 0.0 ? "+" : "") + FormatFixed(change, 1) +
                            " %, from " + FormatFixed(before / CubicMillimetresPerMl, 1) + " to " +
-                           FormatMillilitres(after / CubicMillimetresPerMl));
+                           DescribeVolume(after / CubicMillimetresPerMl));
   }
 }
 

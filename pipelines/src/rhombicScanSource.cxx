@@ -31,7 +31,7 @@ DescribeGrid(const Scan & scan)
   const auto & grid = GeometryOf(scan.image);
   return scan.format + (scan.modality.empty() ? "" : " " + scan.modality) + ": " +
          FormatProduct(grid.GetLargestPossibleRegion().GetSize()) + " samples, spacing " +
-         FormatProduct(grid.GetSpacing()) + " mm, " + PixelTypeName(scan.image);
+         DescribeSpacing(grid.GetSpacing()) + ", " + PixelTypeName(scan.image);
 }
 
 void

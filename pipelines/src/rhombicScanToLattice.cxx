@@ -172,7 +172,7 @@ Resample(TFilter & filter,
     lattice->DisconnectPipeline();
   }
   events.Note("lattice: " + FormatProduct(lattice->GetLargestPossibleRegion().GetSize()) + " sites, spacing " +
-              FormatProduct(lattice->GetSpacing()) + " mm");
+              DescribeSpacing(lattice->GetSpacing()));
   return lattice;
 }
 

@@ -268,8 +268,8 @@ DescribeAudit(const itk::TriangleSurfaceAudit & audit)
   const std::string shape = Count(audit.triangles, "triangle") + ", " + Count(audit.points, "point") + ", " +
                             DescribeParts(audit) + ", Euler characteristic " +
                             std::to_string(topology.eulerCharacteristic) + ", genus " + std::to_string(topology.genus) +
-                            ", " + FormatMillilitres(audit.volume / CubicMillimetresPerMl) + ", " +
-                            FormatFixed(audit.area / 100.0, 1) + " cm2";
+                            ", " + DescribeVolume(audit.volume / CubicMillimetresPerMl) + ", " +
+                            DescribeArea(audit.area);
   const std::string quality = "triangles: quality " + FormatFixed(audit.quality.mean, 2) + " on average, " +
                               FormatFixed(100.0 * audit.quality.poorFraction, 2) + " % below " +
                               FormatFixed(itk::TriangleSurfaceQuality::Poor, 2) + ", smallest angle " +

@@ -557,7 +557,7 @@ private:
     const double inGrid = found != m_Overlap->second.end() ? found->second : 0.0;
     if (inGrid < (1.0 - notable) * whole)
     {
-      m_Events.Note(name + ": " + FormatMillilitres((whole - inGrid) / CubicMillimetresPerMl) +
+      m_Events.Note(name + ": " + DescribeVolume((whole - inGrid) / CubicMillimetresPerMl) +
                     " of B lie outside of A's grid, and do not count for Dice and IoU");
     }
   }

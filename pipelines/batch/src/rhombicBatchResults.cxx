@@ -179,7 +179,7 @@ DescribeVolumes(const Report & record)
     if (surface.contains("volume_ml") && std::count(names.begin(), names.end(), name) == 0)
     {
       names.push_back(name);
-      text += (text.empty() ? "" : "<br>") + Escape(name) + " " + FormatMillilitres(surface["volume_ml"].get<double>());
+      text += (text.empty() ? "" : "<br>") + Escape(name) + " " + DescribeVolume(surface["volume_ml"].get<double>());
     }
   }
   return text;

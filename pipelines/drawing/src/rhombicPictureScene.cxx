@@ -26,8 +26,7 @@ namespace
 std::string
 DescribeGrid(const itk::ImageBase<3> & image, const std::string & words)
 {
-  return FormatProduct(image.GetLargestPossibleRegion().GetSize()) + words + FormatProduct(image.GetSpacing(), 4) +
-         " mm";
+  return FormatProduct(image.GetLargestPossibleRegion().GetSize()) + words + DescribeSpacing(image.GetSpacing(), 4);
 }
 
 /** A part of the body as DICOM has it, in words: "chest", "head and neck". */

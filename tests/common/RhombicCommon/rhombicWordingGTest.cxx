@@ -30,7 +30,23 @@ TEST(Wording, NumbersAreThoseOfPrintf)
     EXPECT_EQ(rhombic::FormatNumber(value, 3), text);
   }
   EXPECT_EQ(rhombic::FormatFixed(std::numeric_limits<double>::max(), 100).size(), 309u + 1u + 100u);
-  EXPECT_EQ(rhombic::FormatMillilitres(12.34), "12.3 ml");
+  EXPECT_EQ(rhombic::DescribeVolume(12.34), "12.3 ml");
+  EXPECT_EQ(rhombic::DescribeVolume(0.0), "0.0 ml");
+  EXPECT_EQ(rhombic::DescribeVolume(0.05), "0.1 ml");
+  EXPECT_EQ(rhombic::DescribeVolume(0.0335), "33.5 mm3");
+  EXPECT_EQ(rhombic::DescribeVolume(-3.351e-5), "-0.0335 mm3");
+  EXPECT_EQ(rhombic::DescribeVolume(5.23e-10), "523 um3");
+  EXPECT_EQ(rhombic::DescribeVolume(312.54, 0.004), "312.5 +- 0.0 ml");
+  EXPECT_EQ(rhombic::DescribeVolume(3.351e-5, 1.2e-7), "0.0335 +- 0.00012 mm3");
+  EXPECT_EQ(rhombic::DescribeArea(1234.0), "12.3 cm2");
+  EXPECT_EQ(rhombic::DescribeArea(0.5027), "0.503 mm2");
+  EXPECT_EQ(rhombic::DescribeArea(5.2e-5), "52 um2");
+  EXPECT_EQ(rhombic::DescribeLength(12.34), "12.3 mm");
+  EXPECT_EQ(rhombic::DescribeLength(0.3981), "0.398 mm");
+  EXPECT_EQ(rhombic::DescribeLength(0.0398), "39.8 um");
+  EXPECT_EQ(rhombic::DescribeSpacing(std::array<double, 3>{ 0.7, 0.7, 2.0 }), "0.7 x 0.7 x 2 mm");
+  EXPECT_EQ(rhombic::DescribeSpacing(std::array<double, 3>{ 0.005, 0.005, 0.0125 }), "5 x 5 x 12.5 um");
+  EXPECT_EQ(rhombic::DescribeSpacing(std::array<double, 3>{ 0.05, 0.05, 0.1 }), "0.05 x 0.05 x 0.1 mm");
   EXPECT_EQ(rhombic::FormatProduct(std::array<unsigned long, 3>{ 512, 512, 138 }), "512 x 512 x 138");
   EXPECT_EQ(rhombic::FormatProduct(std::array<double, 3>{ 0.7, 1.0 / 3.0, 2.0 }, 3), "0.7 x 0.333 x 2");
 }

@@ -38,9 +38,36 @@ FormatExact(double value);
 
 constexpr double CubicMillimetresPerMl = 1000.0;
 
-/** A volume given in ml, with one decimal: "12.3 ml". */
+/** A volume given in ml, with one decimal: "12.3 ml". Below 0.05 ml with three digits: "8.18 mm3", "523 um3". */
 std::string
-FormatMillilitres(double millilitres);
+DescribeVolume(double millilitres);
+
+/** A volume and its uncertainty, both given in ml, in one unit: "12.3 +- 0.1 ml". */
+std::string
+DescribeVolume(double millilitres, double uncertainty);
+
+/** An area given in mm2, with one decimal: "12.3 cm2". Below 0.05 cm2 with three digits: "4.91 mm2", "523 um2". */
+std::string
+DescribeArea(double squareMillimetres);
+
+/** A length given in mm, with one decimal: "12.3 mm". Below 1 mm with three digits: "0.398 mm", "39.8 um". */
+std::string
+DescribeLength(double millimetres);
+
+/** The spacing of a grid, given in mm: "0.7 x 0.7 x 2 mm", or "5 x 5 x 5 um" if no axis has 0.1 mm. */
+template <typename TNumbers>
+std::string
+DescribeSpacing(const TNumbers & spacing, int digits = 6)
+{
+  constexpr double shortest = 0.1; // mm
+  constexpr double micrometres = 1000.0;
+  if (spacing[0] < shortest && spacing[1] < shortest && spacing[2] < shortest)
+  {
+    const double scaled[] = { micrometres * spacing[0], micrometres * spacing[1], micrometres * spacing[2] };
+    return FormatProduct(scaled, digits) + " um";
+  }
+  return FormatProduct(spacing, digits) + " mm";
+}
 
 /** The whole of \a text as a number. Nothing when it is none, has other characters, blanks or a plus sign, or is out of
  * the type's range. Floating-point numbers may be "inf" or "nan". */

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 
 namespace rhombic
@@ -55,6 +56,43 @@ NearDistance(const std::string & a, const std::string & b)
   return isPart || 3 * distance <= longer.size() ? std::optional(distance) : std::nullopt;
 }
 
+/** A unit of a measure. */
+struct Unit
+{
+  const char * name;
+  double perBase; ///< the factor from the unit of the value that is given
+  double least;   ///< the smallest value, as given, that is written in this unit
+  bool isRound;   ///< written with one decimal, else with three digits
+};
+using Units = std::array<Unit, 3>; ///< from the largest to the smallest
+
+constexpr Units VolumeUnits{ { { "ml", 1.0, 0.05, true }, { "mm3", 1e3, 1e-6, false }, { "um3", 1e12, 0.0, false } } };
+constexpr Units AreaUnits{ { { "cm2", 0.01, 5.0, true }, { "mm2", 1.0, 1e-3, false }, { "um2", 1e6, 0.0, false } } };
+constexpr Units LengthUnits{ { { "mm", 1.0, 1.0, true }, { "mm", 1.0, 0.1, false }, { "um", 1e3, 0.0, false } } };
+
+/** The largest unit in which a number is not too small; for 0 and no numbers the largest of all. */
+const Unit &
+FindUnit(double value, const Units & units)
+{
+  const double size = std::abs(value);
+  const auto fits = [size](const Unit & unit) { return size >= unit.least; };
+  return size > 0.0 ? *std::find_if(units.begin(), units.end(), fits) : units.front();
+}
+
+std::string
+FormatIn(const Unit & unit, double value)
+{
+  constexpr int digits = 3;
+  return unit.isRound ? FormatFixed(unit.perBase * value, 1) : FormatNumber(unit.perBase * value, digits);
+}
+
+std::string
+FormatMeasure(double value, const Units & units)
+{
+  const Unit & unit = FindUnit(value, units);
+  return FormatIn(unit, value) + ' ' + unit.name;
+}
+
 } // namespace
 
 std::string
@@ -78,9 +116,28 @@ FormatExact(double value)
 }
 
 std::string
-FormatMillilitres(double millilitres)
+DescribeVolume(double millilitres)
 {
-  return FormatFixed(millilitres, 1) + " ml";
+  return FormatMeasure(millilitres, VolumeUnits);
+}
+
+std::string
+DescribeVolume(double millilitres, double uncertainty)
+{
+  const Unit & unit = FindUnit(millilitres, VolumeUnits);
+  return FormatIn(unit, millilitres) + " +- " + FormatIn(unit, uncertainty) + ' ' + unit.name;
+}
+
+std::string
+DescribeArea(double squareMillimetres)
+{
+  return FormatMeasure(squareMillimetres, AreaUnits);
+}
+
+std::string
+DescribeLength(double millimetres)
+{
+  return FormatMeasure(millimetres, LengthUnits);
 }
 
 std::string

@@ -389,7 +389,7 @@ DescribeKept(const TableRemoval & removal)
   return removal.kept.empty()
            ? ""
            : "; kept as the patient's: " + Count(removal.kept.size(), "part") + " apart from the largest, of " +
-               FormatMillilitres(SumOfVolumes(removal.kept)) + " in all";
+               DescribeVolume(SumOfVolumes(removal.kept)) + " in all";
 }
 
 void

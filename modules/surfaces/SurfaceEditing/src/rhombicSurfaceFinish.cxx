@@ -40,7 +40,7 @@ DescribeFilling(const itk::RemovedShells & filled, double volumeBefore, const st
   const double growth = -filled.volume / volumeBefore;
   constexpr double notable = 0.01;
   return name + ": SurfaceFinish::fillsCavities removed " + DescribeShells(filled) + " inside the surface and added " +
-         FormatMillilitres(-filled.volume / CubicMillimetresPerMl) + " (" + (growth < 0.0 ? "" : "+") +
+         DescribeVolume(-filled.volume / CubicMillimetresPerMl) + " (" + (growth < 0.0 ? "" : "+") +
          FormatFixed(100.0 * growth, 1) + " %)" +
          (growth > notable ? "; the volume is no longer that of " + name +
                                " alone, leave out SurfaceFinish::fillsCavities to measure it"
@@ -51,7 +51,7 @@ std::string
 DescribeRemoval(const itk::RemovedShells & removed, double volumeBefore, const std::string & name)
 {
   return name + ": removed " + DescribeShells(removed) + " of " +
-         FormatMillilitres(removed.volume / CubicMillimetresPerMl) + " in all (" +
+         DescribeVolume(removed.volume / CubicMillimetresPerMl) + " in all (" +
          FormatFixed(100.0 * removed.volume / volumeBefore, 1) + " % of the volume)";
 }
 
