@@ -237,7 +237,7 @@ TEST(Batch, AFailedOutputLeavesTheOthersOfItsCase)
   const Outcome outcome = RunShell(run, folder.Path());
   EXPECT_EQ(outcome.exitCode, 12) << outcome.errors;
   EXPECT_NE(outcome.errors.find("Not made: b.stl"), std::string::npos) << outcome.errors;
-  const Outcome files = RunShell("cd out/case && ls -A", folder.Path());
+  const Outcome files = RunShell("export LC_ALL=C; cd out/case && ls -A", folder.Path());
   EXPECT_EQ(files.output, "a.stl\na.stl.json\nc.stl\nc.stl.json\ncase.json\n");
   const auto result = ReadTable(folder.Path() / "out/results.tsv").at(0);
   EXPECT_EQ(result.at("status"), "failed");
@@ -301,7 +301,7 @@ TEST(Batch, PatientsNamesAreInDicomFilesOnlyAndOfDicomScansOnly)
   EXPECT_EQ(outcome.exitCode, 12) << outcome.errors;
   EXPECT_NE(outcome.errors.find("hold the patients' names"), std::string::npos) << outcome.errors;
   EXPECT_NE(outcome.errors.find("is NIfTI"), std::string::npos) << outcome.errors;
-  const Outcome files = RunShell("cd out; ls */*.dcm */*.jpg; grep -rl PHANTOM .", folder.Path());
+  const Outcome files = RunShell("export LC_ALL=C; cd out; ls */*.dcm */*.jpg; grep -rl PHANTOM .", folder.Path());
   EXPECT_EQ(files.output, "dicom/front.dcm\ndicom/thumbnail.jpg\n./dicom/front.dcm\n");
   EXPECT_NE(ReadText(folder.Path() / "out/outputs.tsv").find("\tdicom/front.dcm\tdicom\tfront.png\t"),
             std::string::npos);
