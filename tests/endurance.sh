@@ -12,7 +12,7 @@ source=$PWD
 folder=$source/build/endurance
 programs=(RhombicCommon Sandbox SurfaceIO ScanIO LabelMaps PictureIO PageDrawing InteractivePage Pipelines DrawingPipelines
           AgreementPipelines BatchPipelines apps) # what has to do with text, files and time
-steps=(locale-tr_TR locale-de_DE host-de_DE zone tmpdir home user)
+steps=(locale-tr_TR locale-de_DE host-de_DE zone blanks lines home user)
 for file in tests/fuzz/*Fuzz.cxx; do
   name=${file##*/rhombic}
   steps+=("fuzz-${name%Fuzz.cxx}")
@@ -73,13 +73,15 @@ environment() { # STEP VARIABLE=VALUE... [as_nobody]: the test programs, where T
   scratch=$(mktemp -d)
   trap 'rm -rf "$scratch"' EXIT
   place=$scratch
-  [ "$step" != tmpdir ] || place+=$'/with spaces\nand two lines'
+  [ "$step" != blanks ] || place+='/with  blanks'
+  [ "$step" != lines ] || place+=$'/of two\nlines'
   mkdir -p "$place/home"
   chmod 755 "$scratch"
   chmod 777 "$place"
   chmod "$([ "$step" = home ] && echo 555 || echo 777)" "$place/home"
   [ "$step" != home ] && [ "$step" != user ] || who=(as_nobody)
   for program in "${programs[@]}"; do
+    [ "$step $program" != 'lines BatchPipelines' ] || continue # a table of cases cannot hold such paths: they are left out
     (cd "$place" && part "$step" "$program" count_tests "${who[@]}" env TMPDIR="$place" HOME="$place/home" "$@" \
        "$source/build/dev/bin/${program}Tests" --gtest_filter='-*.AThousand*:*.TwentyVariants*' && exit $status) || status=1
   done
@@ -135,7 +137,7 @@ for step in "${steps[@]}"; do
     locale-*) has_locale "${step#locale-}.UTF-8" && environment "$step" LC_ALL="${step#locale-}.UTF-8" || true ;;
     host-*) host "$step" "${step#host-}.UTF-8" ;;
     zone) environment zone TZ=Pacific/Kiritimati ;;
-    tmpdir | home | user) environment "$step" ;;
+    blanks | lines | home | user) environment "$step" ;;
     fuzz-*) fuzz "$step" ;;
     *) sanitizer "$step" ;;
   esac
