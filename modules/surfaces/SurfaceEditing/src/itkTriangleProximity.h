@@ -14,6 +14,36 @@
 namespace itk
 {
 
+/** Triangles of a surface to all of which together a triangle is near: as long as they stay, the triangle is near the
+ * surface, whatever else changes. */
+struct ProximityProof
+{
+  static constexpr unsigned int MostTriangles = 6;
+
+  std::array<std::uint32_t, MostTriangles> triangles{};
+  unsigned int size = 0; ///< more than MostTriangles if there are too many
+
+  void
+  Add(std::uint32_t triangle)
+  {
+    const auto end = triangles.begin() + std::min(size, MostTriangles);
+    if (this->IsComplete() && std::find(triangles.begin(), end, triangle) == end)
+    {
+      if (size < MostTriangles)
+      {
+        triangles[size] = triangle;
+      }
+      ++size;
+    }
+  }
+
+  bool
+  IsComplete() const
+  {
+    return size <= MostTriangles;
+  }
+};
+
 /** \class TriangleProximity
  * \brief Whether all of a triangle is within a distance of a surface.
  *
@@ -28,11 +58,16 @@ namespace itk
 class TriangleProximity
 {
 public:
-  /** \param distance in mm, above 0 */
-  TriangleProximity(const CornersType & triangle, const TriangleTree & surface, double distance)
+  /** \param distance in mm, above 0
+   *  \param proof if not null, gets the triangles of the surface that make IsNearSurface() true */
+  TriangleProximity(const CornersType & triangle,
+                    const TriangleTree & surface,
+                    double distance,
+                    ProximityProof * proof = nullptr)
     : m_Triangle(triangle)
     , m_Surface(surface)
     , m_Distance(distance)
+    , m_Proof(proof)
     , m_SquaredSide(SquaredLongestSide(triangle))
   {}
 
@@ -151,9 +186,21 @@ private:
   bool
   IsNearTriangle(const Piece & piece, std::uint32_t triangle) const
   {
-    return std::all_of(piece.begin(), piece.end(), [&](const PositionType & corner) {
+    const bool isNear = std::all_of(piece.begin(), piece.end(), [&](const PositionType & corner) {
       return this->SquaredDistanceTo(triangle, corner) <= m_Distance * m_Distance;
     });
+    return isNear && this->NeedsTriangle(triangle);
+  }
+
+  /** Notes that a part is near because of a triangle of the surface. Returns true. */
+  bool
+  NeedsTriangle(std::uint32_t triangle) const
+  {
+    if (m_Proof != nullptr)
+    {
+      m_Proof->Add(triangle);
+    }
+    return true;
   }
 
   /** Whether a piece is near the surface; \a likely is a triangle of the surface that may be near. */
@@ -176,13 +223,17 @@ private:
     {
       return false;
     }
-    if (nearest.squaredDistance <= enough * enough || this->IsNearTriangle(piece, nearest.triangle))
+    if (nearest.squaredDistance <= enough * enough)
+    {
+      return this->NeedsTriangle(nearest.triangle);
+    }
+    if (this->IsNearTriangle(piece, nearest.triangle))
     {
       return true;
     }
     if (this->IsSmall(piece, nearest.triangle))
     {
-      return this->AreCornersNear(piece);
+      return this->NeedsTriangle(nearest.triangle) && this->AreCornersNear(piece);
     }
     if (piece.size > ManyCorners)
     {
@@ -291,7 +342,8 @@ private:
   {
     const double limit = m_Distance * m_Distance;
     return std::all_of(piece.begin(), piece.end(), [&](const PositionType & corner) {
-      return m_Surface.FindClosestPoint(corner, limit, limit).triangle != TriangleTree::None;
+      const std::uint32_t near = m_Surface.FindClosestPoint(corner, limit, limit).triangle;
+      return near != TriangleTree::None && this->NeedsTriangle(near);
     });
   }
 
@@ -304,6 +356,7 @@ private:
   const CornersType & m_Triangle;
   const TriangleTree & m_Surface;
   const double m_Distance;
+  ProximityProof * const m_Proof;
   const double m_SquaredSide; ///< longest side of the triangle
 };
 

@@ -23,6 +23,7 @@ namespace
 using PatchId = std::uint32_t;
 using PointId = std::uint32_t;
 using TriangleId = std::uint32_t;
+using VersionId = std::uint32_t; ///< of a triangle as it is between two changes
 using Box = TriangleTree::Box;
 using Flags = std::vector<std::uint8_t>;
 using Sheets = std::vector<std::uint32_t>; ///< for each triangle, the number of its sheet
@@ -87,10 +88,14 @@ struct Patch
   CollapsedPart after;
   std::vector<std::uint16_t> checkedChanges; ///< for each triangle before, how often a corner of it had moved at the
                                              ///< last check; Absent if the triangle had vanished
+  std::vector<VersionId> versions;           ///< for each triangle before, its version at the last check
 };
 
 Patch
-MakePatch(const TriangleSurface & surface, const Sheets & sheets, const TriangleRange & range)
+MakePatch(const TriangleSurface & surface,
+          const Sheets & sheets,
+          const std::vector<VersionId> & versions,
+          const TriangleRange & range)
 {
   Patch patch;
   const auto * const triangles = surface.GetTriangles().data();
@@ -98,6 +103,7 @@ MakePatch(const TriangleSurface & surface, const Sheets & sheets, const Triangle
   patch.before.sheets.assign(sheets.data() + range.begin, sheets.data() + range.end);
   patch.mostChanges.assign(range.Size(), std::numeric_limits<std::uint16_t>::max());
   patch.checkedChanges.assign(range.Size(), 0);
+  patch.versions.assign(versions.data() + range.begin, versions.data() + range.end);
   return patch;
 }
 
@@ -204,7 +210,11 @@ public:
         }
       }
       m_IsCovered.assign(surface.GetNumberOfTriangles(), 1);
+      m_Proofs.resize(surface.GetNumberOfTriangles());
     }
+    m_Versions.resize(surface.GetNumberOfTriangles());
+    std::iota(m_Versions.begin(), m_Versions.end(), 0u);
+    m_IsPresent.assign(m_Versions.size(), 1);
     m_Points.strata = FindStrata(surface, TrianglesOfPoints(surface)).strata;
     m_IsHeld.assign(surface.GetNumberOfPoints(), 0);
   }
@@ -318,10 +328,13 @@ private:
       TriangleId triangle;
     };
     const Sheets sheets = std::move(m_SheetsBefore);
+    const std::vector<VersionId> versions = std::move(m_Versions);
     m_SheetsBefore.clear();
+    m_Versions.clear();
     for (const TriangleId id : oldIds)
     {
       m_SheetsBefore.push_back(sheets[id]);
+      m_Versions.push_back(versions[id]);
     }
     m_Points.triangles.assign(m_Before->GetNumberOfPoints(), 0);
     for (const auto & triangle : m_Before->GetTriangles())
@@ -339,7 +352,7 @@ private:
       {
         newIds[oldIds[id]] = { static_cast<PatchId>(m_Patches.size()), static_cast<TriangleId>(id - range.begin) };
       }
-      m_Patches.push_back(MakePatch(*m_Before, m_SheetsBefore, range));
+      m_Patches.push_back(MakePatch(*m_Before, m_SheetsBefore, m_Versions, range));
     }
     for (PointId point = 0; point < m_WitnessTriangles.size(); ++point)
     {
@@ -439,6 +452,8 @@ private:
     m_Begin.assign(1, 0);
     m_IsNew.clear();
     m_IsFresh.clear();
+    m_Versions.clear();
+    std::fill(m_IsPresent.begin(), m_IsPresent.end(), std::uint8_t{ 0 });
     for (PatchId id = 0; id < m_Patches.size(); ++id)
     {
       Patch & patch = m_Patches[id];
@@ -456,6 +471,13 @@ private:
         changes[before] = after.changes[n];
         m_IsNew.push_back(after.changes[n] > 0 ? 1 : 0);
         m_IsFresh.push_back(after.changes[n] != patch.checkedChanges[before] ? 1 : 0);
+        if (m_IsFresh.back() != 0)
+        {
+          patch.versions[before] = static_cast<VersionId>(m_IsPresent.size());
+          m_IsPresent.push_back(1);
+        }
+        m_IsPresent[patch.versions[before]] = 1;
+        m_Versions.push_back(patch.versions[before]);
       }
       patch.checkedChanges.swap(changes);
       m_Begin.push_back(static_cast<TriangleId>(triangles.size()));
@@ -554,8 +576,37 @@ private:
     });
   }
 
+  /** Whether the triangles that proved that a triangle of the original is near the state are all still there. */
+  bool
+  IsStillNear(TriangleId id) const
+  {
+    const ProximityProof & proof = m_Proofs[id];
+    const auto * const end = proof.triangles.data() + std::min(proof.size, ProximityProof::MostTriangles);
+    return proof.size > 0 && proof.IsComplete() &&
+           std::all_of(proof.triangles.data(), end, [this](VersionId version) { return m_IsPresent[version] != 0; });
+  }
+
+  /** Checks a triangle of the original that the triangles at its corners do not cover, and notes what proves that it is
+   * near the state. */
+  bool
+  ProveNear(TriangleId id,
+            const CornersType & corners,
+            const TriangleTree & state,
+            const std::array<TriangleId, 3> & likely)
+  {
+    ProximityProof proof;
+    const bool isNear = TriangleProximity(corners, state, m_MaximumError, &proof).IsNearSurface(likely);
+    for (VersionId & triangle : proof.triangles)
+    {
+      triangle = m_Versions[triangle];
+    }
+    m_Proofs[id] = isNear ? proof : ProximityProof();
+    return isNear;
+  }
+
   /** Adds the triangles around those of the original that are farther than maximumError from the state. Checks those of
-   * which corners are covered by a triangle that has changed, or all that are not covered by these triangles alone. */
+   * which corners are covered by a triangle that has changed, or all that are not covered by these triangles alone, but
+   * for those whose proof still holds. */
   void
   FindUncovered(const std::vector<TriangleTree> & state, bool checksAll, Flags & isBad)
   {
@@ -566,13 +617,13 @@ private:
       const auto & [a, b, c] = triangles[id];
       const std::array<TriangleId, 3> near{ m_WitnessTriangles[a], m_WitnessTriangles[b], m_WitnessTriangles[c] };
       const bool hasChanged = m_IsFresh[near[0]] | m_IsFresh[near[1]] | m_IsFresh[near[2]];
-      if (hasChanged || (checksAll && !m_IsCovered[id]))
+      if (hasChanged || (checksAll && !m_IsCovered[id] && !this->IsStillNear(static_cast<TriangleId>(id))))
       {
         const CornersType corners = CornersOf(original, triangles[id]);
         const TriangleTree & tree = state[m_Original->sheets[id]];
         const TriangleProximity proximity(corners, tree, m_MaximumError);
         m_IsCovered[id] = (near[0] == near[1] && near[1] == near[2]) || proximity.IsNearOneOf(near);
-        isUncovered[id] = !m_IsCovered[id] && !proximity.IsNearSurface(near);
+        isUncovered[id] = !m_IsCovered[id] && !this->ProveNear(static_cast<TriangleId>(id), corners, tree, near);
       }
     });
     for (TriangleId id = 0; id < triangles.size(); ++id)
@@ -654,6 +705,10 @@ private:
   std::vector<TriangleId>
     m_WitnessTriangles; ///< for each point of the original, the triangle of m_State that covers it
   Flags m_IsCovered;    ///< for each triangle of the original, whether the triangles that cover its corners cover it
+
+  std::vector<ProximityProof> m_Proofs; ///< for each triangle of the original that is not covered: by versions
+  std::vector<VersionId> m_Versions;    ///< of the triangles of m_State
+  Flags m_IsPresent;                    ///< for each version, whether m_State has it
 
   // The current step.
   TriangleSurface::Pointer m_Before;

@@ -1,0 +1,90 @@
+#include "itkTriangleProximity.h"
+
+#include "itkTriangleSurface.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace
+{
+
+using Surface = itk::TriangleSurface;
+
+constexpr std::uint32_t Side = 12; // points of the rough square
+
+/** A rough square: points a unit apart, at random heights up to \a roughness. */
+Surface::Pointer
+MakeRoughSquare(double roughness, unsigned int seed)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> height(0.0f, static_cast<float>(roughness));
+  const auto surface = Surface::New();
+  for (std::uint32_t y = 0; y < Side; ++y)
+  {
+    for (std::uint32_t x = 0; x < Side; ++x)
+    {
+      surface->GetPoints().push_back({ static_cast<float>(x), static_cast<float>(y), height(random) });
+    }
+  }
+  for (std::uint32_t y = 0; y + 1 < Side; ++y)
+  {
+    for (std::uint32_t x = 0; x + 1 < Side; ++x)
+    {
+      const std::uint32_t corner = x + y * Side;
+      surface->GetTriangles().push_back({ corner, corner + 1, corner + Side });
+      surface->GetTriangles().push_back({ corner + 1, corner + Side + 1, corner + Side });
+    }
+  }
+  return surface;
+}
+
+TEST(TriangleProximity, TheTrianglesOfAProofAreEnough)
+{
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> place(1.0, Side - 2.0);
+  std::uniform_real_distribution<double> step(-1.2, 1.2);
+  std::uniform_real_distribution<double> height(0.0, 0.3);
+  constexpr double distance = 0.25;
+  unsigned int proofs = 0;
+  unsigned int incomplete = 0;
+  for (unsigned int n = 0; n < 2000; ++n)
+  {
+    const auto surface = MakeRoughSquare(0.3, n % 50);
+    const itk::PositionType first{ place(random), place(random), height(random) };
+    const auto near = [&]() -> itk::PositionType {
+      return { first[0] + step(random), first[1] + step(random), height(random) };
+    };
+    const itk::CornersType triangle{ first, near(), near() };
+    const itk::TriangleTree tree(*surface);
+    std::array<std::uint32_t, 3> likely{};
+    for (unsigned int corner = 0; corner < 3; ++corner)
+    {
+      likely[corner] = tree.FindClosestPoint(triangle[corner]).triangle;
+    }
+    itk::ProximityProof proof;
+    const bool isNear = itk::TriangleProximity(triangle, tree, distance, &proof).IsNearSurface(likely);
+    EXPECT_EQ(isNear, itk::TriangleProximity(triangle, tree, distance).IsNearSurface(likely));
+    incomplete += isNear && !proof.IsComplete() ? 1 : 0;
+    if (!isNear || !proof.IsComplete())
+    {
+      continue;
+    }
+    ++proofs;
+    ASSERT_GT(proof.size, 0u);
+    const itk::TriangleTree some(
+      *surface, std::vector<std::uint32_t>(proof.triangles.begin(), proof.triangles.begin() + proof.size));
+    for (unsigned int sample = 0; sample < 100; ++sample)
+    {
+      const double a = std::sqrt(std::generate_canonical<double, 32>(random));
+      const double b = std::generate_canonical<double, 32>(random);
+      const itk::PositionType point = rhombic::Mix(triangle[0], rhombic::Mix(triangle[1], triangle[2], b), a);
+      ASSERT_LE(some.FindClosestPoint(point).squaredDistance, distance * distance * (1.0 + 1e-9)) << n;
+    }
+  }
+  EXPECT_GT(proofs, 500u);
+  EXPECT_GT(incomplete, 0u);
+}
+
+} // namespace
