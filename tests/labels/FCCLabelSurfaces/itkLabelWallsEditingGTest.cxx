@@ -411,6 +411,22 @@ TEST(LabelWallsEditing, WallsOfANarrowGapDoNotMeet)
   EXPECT_LT(unmoved, start->GetNumberOfPoints());
 }
 
+TEST(LabelWallsEditing, WallsOfAShortGapInALargeBlockDoNotMeet)
+{
+  const auto block = MakeLabels(Region(0, 25, 50, 50), [](const itk::Index<3> & index) {
+    const auto site = itk::FCCLattice::SiteOf(index);
+    const bool isInside = std::all_of(site.begin(), site.end(), [](auto at) { return at >= 2 && at <= 47; });
+    const bool isGap = site[0] >= 24 && site[0] <= 25 && site[1] > 42 && site[2] > 42;
+    return static_cast<std::uint16_t>(isInside && !isGap ? 1 : 0);
+  });
+  const auto walls = MakeWalls(block);
+  const double volume = 1.15 * walls->ComputeVolumes()[1];
+  RelaxLabelWalls(*walls, MovesUpTo(4.0), { 0.0, volume });
+  ExpectSoundWalls(*walls, *block);
+  EXPECT_EQ(CountCrossings(*walls), 0u);
+  EXPECT_NEAR(walls->ComputeVolumes()[1], volume, 1e-4 * volume) << "the rest makes up for the gap";
+}
+
 TEST(LabelWallsEditing, SimplifiedWallsReachATarget)
 {
   const auto image = MakeBlobs(Region(0, 14, 28, 28), 2, 6);

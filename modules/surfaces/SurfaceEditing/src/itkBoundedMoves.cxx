@@ -200,20 +200,55 @@ BoundedMoves::Retreat(std::vector<std::uint32_t> triangles)
   return changed;
 }
 
+/** Moves the points of some triangles, among which are all that have moved, to the next points, and the tree with them.
+ */
+void
+BoundedMoves::TakeNext(const std::vector<std::uint32_t> & triangles)
+{
+  constexpr std::size_t many = 128; // of so many triangles, one
+  if (triangles.size() > m_StartAreas.size() / many)
+  {
+    m_Surface.GetPoints() = m_Next;
+    m_Tree->Refit();
+    return;
+  }
+  std::vector<TriangleTree::Box> before;
+  before.reserve(triangles.size());
+  for (const std::uint32_t id : triangles)
+  {
+    before.push_back(m_Tree->GetTriangleBox(id));
+  }
+  Points & points = m_Surface.GetPoints();
+  for (const std::uint32_t point : this->FindCorners(triangles))
+  {
+    points[point] = m_Next[point];
+  }
+  for (std::size_t n = 0; n < triangles.size(); ++n)
+  {
+    m_Tree->Enlarge(before[n], m_Tree->GetTriangleBox(triangles[n]));
+  }
+}
+
 void
 BoundedMoves::PutBackMeeting(rhombic::StagedProgress & progress, double stageEnd)
 {
-  TriangleTree tree(m_Surface);
+  if (m_Tree)
+  {
+    m_Tree->Refit();
+  }
+  else
+  {
+    m_Tree.emplace(m_Surface);
+  }
   m_Next = m_Surface.GetPoints();
   this->BeginRetreats();
-  auto meeting = FindCrossingTriangles(tree, m_Fans, TriangleContact::Touching, &progress, stageEnd);
+  auto meeting = FindCrossingTriangles(*m_Tree, m_Fans, TriangleContact::Touching, &progress, stageEnd);
   while (!meeting.empty())
   {
     progress.Completed(0);
     const auto latest = this->Retreat(meeting);
-    m_Surface.GetPoints() = m_Next;
-    tree.Refit();
-    meeting = FindCrossingTriangles(tree, m_Fans, latest, TriangleContact::Touching);
+    this->TakeNext(latest);
+    meeting = FindCrossingTriangles(*m_Tree, m_Fans, latest, TriangleContact::Touching);
   }
 }
 

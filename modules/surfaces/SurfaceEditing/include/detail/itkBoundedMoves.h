@@ -5,6 +5,9 @@
 #include "rhombicForEachBlock.h"
 #include "detail/itkPointStrata.h"
 #include "itkTriangleSurfaceSmoothing.h"
+#include "itkTriangleTree.h"
+
+#include <optional>
 
 namespace itk
 {
@@ -151,6 +154,8 @@ private:
   BeginRetreats();
   std::vector<std::uint32_t>
   Retreat(std::vector<std::uint32_t> triangles);
+  void
+  TakeNext(const std::vector<std::uint32_t> & triangles);
 
   TriangleSurface & m_Surface;
   const TrianglesOfPoints & m_Fans;
@@ -161,6 +166,7 @@ private:
   Points m_Next;
   Points m_Moved;                       ///< from where points retreat
   std::vector<std::uint8_t> m_Retreats; ///< of each point: quarters of its way back to the start
+  std::optional<TriangleTree> m_Tree;   ///< of the surface, since triangles that meet were first put back
 };
 
 } // namespace itk
