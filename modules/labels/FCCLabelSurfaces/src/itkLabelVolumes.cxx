@@ -1,6 +1,6 @@
 #include "itkLabelVolumes.h"
 
-#include "detail/itkPositionArithmetic.h"
+#include "itkSumInOrder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,27 +19,46 @@ constexpr double SmallestChange = 1e-5; // of the largest layer
 /** The walls of each label: the other label, and the area in mm^2. */
 using LabelAreas = std::vector<std::vector<std::pair<LabelWalls::LabelType, double>>>;
 
-LabelAreas
-FindAreas(const LabelWalls & walls, std::size_t labels)
+/** What walls enclose, and how large they are. */
+struct LabelSizes
 {
+  LabelAreas areas;
+  std::vector<double> volumes; ///< mm^3
+};
+
+LabelSizes
+FindSizes(const LabelWalls & walls, std::size_t labels)
+{
+  struct Share // of a triangle
+  {
+    double area;
+    double volume;
+  };
   std::map<LabelWalls::LabelPairType, double> areas;
   auto last = areas.end();
-  for (std::size_t n = 0; n < walls.GetNumberOfTriangles(); ++n)
-  {
-    const LabelWalls::LabelPairType & pair = walls.GetTriangleLabels()[n];
-    if (last == areas.end() || last->first != pair)
-    {
-      last = areas.try_emplace(pair, 0.0).first;
-    }
-    last->second += 0.5 * Length(AreaVector(CornersOf(walls, walls.GetTriangles()[n])));
-  }
-  LabelAreas found(labels);
+  LabelSizes sizes{ LabelAreas(labels), std::vector<double>(labels) };
+  SumInOrder(
+    walls.GetNumberOfTriangles(),
+    [&walls](std::size_t n) {
+      return Share{ 0.5 * Length(AreaVector(CornersOf(walls, walls.GetTriangles()[n]))),
+                    FindVolumeOfTriangle(walls, n) };
+    },
+    [&](std::size_t n, const Share & share) {
+      const LabelWalls::LabelPairType & pair = walls.GetTriangleLabels()[n];
+      if (last == areas.end() || last->first != pair)
+      {
+        last = areas.try_emplace(pair, 0.0).first;
+      }
+      last->second += share.area;
+      sizes.volumes[pair[0]] -= share.volume;
+      sizes.volumes[pair[1]] += share.volume;
+    });
   for (const auto & [pair, area] : areas)
   {
-    found[pair[0]].emplace_back(pair[1], area);
-    found[pair[1]].emplace_back(pair[0], area);
+    sizes.areas[pair[0]].emplace_back(pair[1], area);
+    sizes.areas[pair[1]].emplace_back(pair[0], area);
   }
-  return found;
+  return sizes;
 }
 
 /** The layers by which labels gain volumes to first order. */
@@ -86,9 +105,7 @@ LabelVolumes::LabelVolumes(const std::vector<double> & volumes)
 const std::vector<double> &
 LabelVolumes::FindLayers(const LabelWalls & walls, const BoundType & bound)
 {
-  const LabelAreas areas = FindAreas(walls, m_Layers.size());
-  std::vector<double> volumes = walls.ComputeVolumes();
-  volumes.resize(m_Layers.size());
+  const auto [areas, volumes] = FindSizes(walls, m_Layers.size());
   std::vector<double> gains(m_Layers.size());
   for (std::size_t label = 1; label < gains.size(); ++label)
   {

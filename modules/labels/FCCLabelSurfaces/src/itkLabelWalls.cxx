@@ -1,6 +1,6 @@
 #include "itkLabelWalls.h"
 
-#include "detail/itkPositionArithmetic.h"
+#include "itkSumInOrder.h"
 
 #include <algorithm>
 #include <limits>
@@ -49,19 +49,15 @@ std::vector<double>
 LabelWalls::ComputeVolumes() const
 {
   std::vector<double> volumes(1);
-  for (std::size_t n = 0; n < this->GetTriangleLabels().size(); ++n)
-  {
-    const auto & [front, back] = this->GetTriangleLabels()[n];
-    volumes.resize(std::max(volumes.size(), std::size_t{ back } + 1));
-    CornersType corners = CornersOf(*this, this->GetTriangles()[n]);
-    for (PositionType & corner : corners)
-    {
-      corner = Subtract(corner, ToPosition(this->GetPoints().front())); // which keeps digits
-    }
-    const double volume = Dot(corners[0], AreaVector(corners)) / 6.0;
-    volumes[front] -= volume;
-    volumes[back] += volume;
-  }
+  SumInOrder(
+    this->GetTriangleLabels().size(),
+    [this](std::size_t n) { return FindVolumeOfTriangle(*this, n); },
+    [&](std::size_t n, double volume) {
+      const auto & [front, back] = this->GetTriangleLabels()[n];
+      volumes.resize(std::max(volumes.size(), std::size_t{ back } + 1));
+      volumes[front] -= volume;
+      volumes[back] += volume;
+    });
   return volumes;
 }
 
