@@ -80,7 +80,7 @@ private:
  * \param mask voxels other than 0 are inside
  * \param region the voxels of the mask that count
  * \param thin offsets of the thin voxels in the mask's buffer, ascending
- * \param placeVoxel gives the position of a voxel's centre in lattice coordinates */
+ * \param placeVoxel gives the position of a voxel's centre in lattice coordinates; is called on several threads */
 std::vector<FCCLattice::SiteType>
 FindThinPartSites(const Image<std::uint8_t, 3> & mask,
                   const ImageRegion<3> & region,

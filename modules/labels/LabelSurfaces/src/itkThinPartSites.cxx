@@ -1,6 +1,7 @@
 #include "itkLabelsOnLattice.h"
 
 #include "detail/itkPositionArithmetic.h"
+#include "rhombicForEachBlock.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,8 @@ namespace itk
 namespace
 {
 
+using Sites = std::vector<FCCLattice::SiteType>;
+
 constexpr double Inside = 1.0 + 1e-9; // of d p for the Voronoi cell's faces, d being the nearest neighbours
 
 PositionType
@@ -19,12 +22,18 @@ PositionOf(const FCCLattice::SiteType & site)
   return { static_cast<double>(site[0]), static_cast<double>(site[1]), static_cast<double>(site[2]) };
 }
 
-/** Whether a convex polygon meets the Voronoi cell of the site 0: whether a part of it is within all of the cell's
- * faces. */
-bool
-MeetsCell(std::vector<PositionType> polygon)
+void
+SortUniqueSites(Sites & sites)
 {
-  std::vector<PositionType> rest;
+  std::sort(sites.begin(), sites.end());
+  sites.erase(std::unique(sites.begin(), sites.end()), sites.end());
+}
+
+/** Whether a convex polygon meets the Voronoi cell of the site 0: whether a part of it is within all of the cell's
+ * faces. Leaves that part. */
+bool
+MeetsCell(std::vector<PositionType> & polygon, std::vector<PositionType> & rest)
+{
   for (const FCCLattice::SiteType & face : FCCLattice::NearestNeighbors)
   {
     rest.clear();
@@ -79,17 +88,23 @@ HullMeetsCell(const std::vector<PositionType> & points)
   {
     return true;
   }
+  std::vector<PositionType> polygon;
+  std::vector<PositionType> rest;
+  const auto meetsCell = [&](std::initializer_list<PositionType> corners) {
+    polygon = corners;
+    return MeetsCell(polygon, rest);
+  };
   for (std::size_t a = 0; a < points.size(); ++a)
   {
     for (std::size_t b = a + 1; b < points.size(); ++b)
     {
-      if (points.size() == 2 && MeetsCell({ points[a], points[b] }))
+      if (points.size() == 2 && meetsCell({ points[a], points[b] }))
       {
         return true;
       }
       for (std::size_t c = b + 1; c < points.size(); ++c)
       {
-        if ((faces[a] & faces[b] & faces[c]) == 0 && MeetsCell({ points[a], points[b], points[c] }))
+        if ((faces[a] & faces[b] & faces[c]) == 0 && meetsCell({ points[a], points[b], points[c] }))
         {
           return true;
         }
@@ -152,10 +167,7 @@ FindThinPartSites(const Image<std::uint8_t, 3> & mask,
   };
   ImageRegion<3> inside = mask.GetBufferedRegion();
   inside.Crop(region);
-  std::vector<FCCLattice::SiteType> sites;
-  std::vector<PositionType> points;
-  for (const SizeValueType offset : thin)
-  {
+  const auto addAround = [&](SizeValueType offset, std::vector<PositionType> & points, Sites & sites) {
     const Index<3> voxel = mask.ComputeIndex(static_cast<OffsetValueType>(offset));
     for (unsigned int cube = 0; cube < 8 && inside.IsInside(voxel); ++cube)
     {
@@ -181,9 +193,24 @@ FindThinPartSites(const Image<std::uint8_t, 3> & mask,
         AddSites(points, sites);
       }
     }
+  };
+  constexpr std::size_t block = 1024;
+  std::vector<Sites> sitesOfBlocks((thin.size() + block - 1) / block);
+  rhombic::ForEachBlock(thin.size(), block, [&](std::size_t begin, std::size_t end) {
+    std::vector<PositionType> points;
+    Sites & sites = sitesOfBlocks[begin / block];
+    for (std::size_t n = begin; n < end; ++n)
+    {
+      addAround(thin[n], points, sites);
+    }
+    SortUniqueSites(sites);
+  });
+  Sites sites;
+  for (const Sites & some : sitesOfBlocks)
+  {
+    sites.insert(sites.end(), some.begin(), some.end());
   }
-  std::sort(sites.begin(), sites.end());
-  sites.erase(std::unique(sites.begin(), sites.end()), sites.end());
+  SortUniqueSites(sites);
   return sites;
 }
 
