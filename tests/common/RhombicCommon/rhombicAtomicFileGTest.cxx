@@ -70,6 +70,32 @@ TEST(AtomicFile, KeepsTheOldFileWithoutCommit)
   EXPECT_EQ(FilesIn(folder.Path()), 1u);
 }
 
+TEST(AtomicFile, TellsAFolderThatIsMissingFromOneThatMayNotBeEntered)
+{
+  const rhombictest::TemporaryFolder folder;
+  const auto refusal = [&folder] {
+    try
+    {
+      const AtomicFile file(folder.Path() / "closed" / "below" / "mesh.stl");
+    }
+    catch (const Failure & failure)
+    {
+      return std::string(failure.GetDescription());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refusal().find("does not exist; create it first"), std::string::npos) << refusal();
+  fs::create_directories(folder.Path() / "closed" / "below");
+  fs::permissions(folder.Path(), fs::perms(0755));
+  fs::permissions(folder.Path() / "closed", fs::perms::none);
+  const uid_t user = geteuid();
+  ASSERT_EQ(seteuid(user == 0 ? 65534 : user), 0); // root may enter all
+  const std::string closed = refusal();
+  ASSERT_EQ(seteuid(user), 0);
+  fs::permissions(folder.Path() / "closed", fs::perms::owner_all);
+  EXPECT_NE(closed.find("may not be entered"), std::string::npos) << closed;
+}
+
 TEST(AtomicFile, RefusesAFileThatIsTooShort)
 {
   const rhombictest::TemporaryFolder folder;

@@ -168,7 +168,11 @@ AtomicFile::AtomicFile(const fs::path & target)
   const fs::path folder = FolderOf(target);
   if (!fs::is_directory(folder, error))
   {
-    Fail(target, "the folder " + folder.string() + " does not exist; create it first");
+    Fail(target,
+         "the folder " + folder.string() +
+           (error == std::errc::permission_denied
+              ? " is in one that may not be entered; choose another, or ask for access"
+              : " does not exist; create it first"));
   }
   const fs::file_type type = fs::status(target, error).type();
   if (type == fs::file_type::none)
