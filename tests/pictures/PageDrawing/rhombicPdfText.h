@@ -18,7 +18,7 @@ TextOfPdf(const std::string & bytes)
   const TemporaryFolder folder;
   const std::string file = (folder.Path() / "page.pdf").string();
   std::ofstream(file, std::ios::binary) << bytes;
-  std::FILE * const pipe = popen(("pdftotext -layout " + file + " - 2>/dev/null").c_str(), "r");
+  std::FILE * const pipe = popen(("pdftotext -layout '" + file + "' - 2>/dev/null").c_str(), "r");
   std::string text;
   for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe))
   {
