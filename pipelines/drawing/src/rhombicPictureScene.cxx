@@ -3,6 +3,7 @@
 #include "rhombicScanReader.h"
 #include "rhombicSlicePart.h"
 #include "rhombicFailure.h"
+#include "rhombicForEachBlock.h"
 #include "rhombicGreyWindow.h"
 #include "rhombicLabelTable.h"
 #include "rhombicMeasureTable.h"
@@ -11,6 +12,7 @@
 #include "rhombicSurfaceReport.h"
 #include "rhombicWording.h"
 
+#include "itkTriangleSurfaceForRendering.h"
 #include "itkTriangleSurfaceShading.h"
 
 #include <algorithm>
@@ -308,6 +310,26 @@ ShadedSurfaces(const PictureScene & scene)
     }
   }
   return shaded;
+}
+
+std::vector<SceneSurface>
+InFewerTriangles(std::vector<SceneSurface> surfaces, double pixelSize)
+{
+  constexpr double unseen = 0.25; // pixels
+  constexpr std::size_t many = 200'000;
+  std::size_t triangles = 0;
+  for (const SceneSurface & surface : surfaces)
+  {
+    triangles += surface.surface->GetNumberOfTriangles();
+  }
+  ForEachOnThreads(triangles > many ? surfaces.size() : 0, [&](std::size_t n) {
+    const itk::TriangleSurface & whole = *surfaces[n].surface;
+    const auto fewer = itk::TriangleSurface::New();
+    fewer->Graft(&whole);
+    fewer->GetTriangles() = itk::SimplifySheetForRendering(whole.GetPoints(), whole.GetTriangles(), unseen * pixelSize);
+    surfaces[n].surface = fewer;
+  });
+  return surfaces;
 }
 
 std::vector<PointedName>

@@ -63,6 +63,13 @@ BoxOfSurfaces(const std::vector<SceneSurface> & surfaces);
 std::vector<SceneSurface>
 ShadedSurfaces(const PictureScene & scene);
 
+/** Surfaces in fewer triangles, for several small pictures in which they look the same: points and normals stay, and
+ * triangles are left out whose points are about a quarter of a pixel away from the others or nearer. If all together
+ * have fewer than about one triangle for each pixel, all stay, as leaving some out would take as long as drawing them.
+ */
+std::vector<SceneSurface>
+InFewerTriangles(std::vector<SceneSurface> surfaces, double pixelSize);
+
 /** Names of a scene's surfaces for a picture.
  * \param places in the view that the projection is of */
 std::vector<PointedName>

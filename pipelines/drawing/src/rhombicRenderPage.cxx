@@ -80,7 +80,10 @@ DrawTurntable(const RenderPageSettings & settings,
   render.ambientOcclusion = !source.scale;
   render.centre = CentreOf(BoxAround(source.surfaces));
   constexpr int quality = 78;
-  renderer.Render(scene, render, turn, [&page](const RenderedView & view) {
+  Scene small = scene;
+  small.surfaces =
+    InFewerTriangles(scene.surfaces, SurfaceRenderer::Plan(scene, render, turn).front().pixelSize); // that of all
+  renderer.Render(small, render, turn, [&page](const RenderedView & view) {
     page.turntable.push_back(EncodeJpeg(view.picture, quality, true));
   });
 }
