@@ -114,7 +114,7 @@ fuzz() { # STEP
   local inputs=("$corpus")
   [ ! -d "build/fuzz/seeds/$name" ] || inputs+=("$source/build/fuzz/seeds/$name")
   [ ! -d "$known/$name" ] || inputs+=("$source/$known/$name")
-  (cd "$folder" && part "$1" "$seconds-s" count_inputs "$source/build/fuzz/bin/$name" -max_total_time="$seconds" -timeout=10 \
+  (cd "$folder" && part "$1" "$seconds-s" count_inputs "$source/build/fuzz/bin/$name" -max_total_time="$seconds" -timeout=100 \
      -malloc_limit_mb=512 -print_final_stats=1 -artifact_prefix="$folder/$name-" "${inputs[@]}" && exit $status) || status=1
 }
 
