@@ -30,12 +30,19 @@ struct LatticeSettings
   bool nested = false; ///< takes every other sample of the scan instead, without interpolation; density 0.5
 };
 
+/** The memory that surfaces of a lattice need, in bytes. */
+struct SurfaceBytes
+{
+  std::uintmax_t besideSlab = 0; ///< beside a slab of the lattice, while they are extracted
+  std::uintmax_t afterwards = 0; ///< while they are untangled and written, when the lattice is gone
+};
+
 /** For a lattice that is made in slabs when the whole of it does not fit. */
 struct LatticeStream
 {
-  std::function<std::uintmax_t()> findBesides; ///< bytes that what is made of the lattice needs; may be empty
-  std::uintmax_t besides = 0;                  ///< the same, once the whole lattice was found not to fit
-  itk::ProcessObject::Pointer source;          ///< makes the slabs; null for a whole lattice
+  std::function<SurfaceBytes()> findSurfaces; ///< what surfaces made of the lattice need; may be empty
+  SurfaceBytes surfaces;                      ///< the same, once the whole lattice was found not to fit
+  itk::ProcessObject::Pointer source;         ///< makes the slabs; null for a whole lattice
 };
 
 /** A denoising written as `none`, `gaussian:SIGMA` or `edges:SIGMA,EDGE`. Throws Failure(Usage). */

@@ -189,17 +189,17 @@ CountSlice(const TPixel * value, const itk::Size<3> & size, const Threshold & th
   return counts;
 }
 
-/** The memory that surfaces need until they are written, and that of the bits of their extraction, estimated from a
- * part of the scan's slices. There are two bits for each sample, but for pages in which none is inside
- * (itk::FCCSigns).
+/** The memory that surfaces need, estimated from a part of the scan's slices. Extraction has two bits for each sample,
+ * but for pages in which none is inside (itk::FCCSigns).
  * \param density relative to the default */
-std::uintmax_t
+SurfaceBytes
 EstimateMeshBytes(const Scan & scan,
                   const std::vector<SurfaceRequest> & requests,
                   itk::FCCIsosurfaceMode mode,
                   double density)
 {
-  constexpr double bytesOfTriangle = 56.0; // while a mesh is untangled or written
+  constexpr double bytesOfTriangle = 24.0;  // with its share of the points and their normals
+  constexpr double bytesWithSearch = 100.0; // while crossings are searched for
   constexpr std::size_t mostSlices = 64;
   constexpr std::size_t samplesOfPage = 50'000; // samples of the scan whose bits share a page of memory
   const auto & size = GeometryOf(scan.image).GetLargestPossibleRegion().GetSize();
@@ -229,7 +229,8 @@ EstimateMeshBytes(const Scan & scan,
   const double triangles = faces * TrianglesPerFace(mode) * std::pow(density, 2.0 / 3.0);
   const double samples = static_cast<double>(sum.pages * step) * static_cast<double>(rowsOfPage * size[0]);
   const double bits = 0.25 * itk::FCCLattice::DefaultDensity * density * samples;
-  return static_cast<std::uintmax_t>(triangles * bytesOfTriangle + bits);
+  return { static_cast<std::uintmax_t>(triangles * bytesOfTriangle + bits),
+           static_cast<std::uintmax_t>(triangles * bytesWithSearch) };
 }
 
 LoadedSource
@@ -301,13 +302,13 @@ PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & sel
   const bool areAllParts = std::all_of(loaded.requests.begin(), loaded.requests.end(), [](const auto & request) {
     return request.parts == SurfaceRequest::Parts::All; // others are found in the whole lattice
   });
-  loaded.stream.findBesides = [&] {
+  loaded.stream.findSurfaces = [&] {
     const double density = source.lattice.density / itk::FCCLattice::DefaultDensity;
     return EstimateMeshBytes(ordered, loaded.requests, selection.mode, density);
   };
   loaded.lattice =
     ScanToLattice(ordered, source.lattice, events, source.streams && areAllParts ? &loaded.stream : nullptr);
-  loaded.stream.findBesides = nullptr; // it refers to what ends here
+  loaded.stream.findSurfaces = nullptr; // it refers to what ends here
   if (!IsSlanted(ordered))
   {
     loaded.grid = itk::ImageBase<3>::New();

@@ -70,17 +70,17 @@ FindPlanesOfSlab(const itk::FCCImage<TPixel> & lattice,
     return 0;
   }
   const std::uintmax_t plane = region.GetSize(0) * region.GetSize(1) * (sizeof(TPixel) + perSite);
-  stream.besides = stream.findBesides ? stream.findBesides() : 0;
-  const std::uintmax_t besides = stream.besides;
+  stream.surfaces = stream.findSurfaces ? stream.findSurfaces() : SurfaceBytes();
+  const auto [besideSlab, afterwards] = stream.surfaces;
   const std::uintmax_t least = scanBytes + around * plane;
-  if (besides > 0 && least + plane <= allowed)
+  if (afterwards > 0 && least + plane <= allowed)
   {
-    RequireMemory(least + plane + besides,
+    RequireMemory(std::max(least + plane + besideSlab, afterwards),
                   settings.maximumMemory,
-                  "A slab of the lattice and the surface, which takes some " + DescribeBytes(besides) + ",",
+                  "A slab of the lattice, and then the surface, which takes some " + DescribeBytes(afterwards) + ",",
                   "use a coarser lattice with --density");
   }
-  const std::uintmax_t planes = allowed > least + besides ? (allowed - least - besides) / plane : 0;
+  const std::uintmax_t planes = allowed > least + besideSlab ? (allowed - least - besideSlab) / plane : 0;
   return std::min<itk::SizeValueType>(planes, region.GetSize(2));
 }
 
@@ -156,13 +156,14 @@ Resample(TFilter & filter,
   {
     stream->source = &filter;
     BeginStream(filter, planes);
-    events.Note("the lattice of " +
-                DescribeBytes(lattice->GetLargestPossibleRegion().GetNumberOfPixels() *
-                              sizeof(typename TFilter::OutputImageType::PixelType)) +
-                " is more than the " + DescribeBytes(MemoryAllowance(settings.maximumMemory)) +
-                " that are allowed; it is made in " + Count(FindDivisions(lattice), "slab") +
-                ", again for each pass over it" +
-                (stream->besides > 0 ? "; the surface will take some " + DescribeBytes(stream->besides) : ""));
+    events.Note(
+      "the lattice of " +
+      DescribeBytes(lattice->GetLargestPossibleRegion().GetNumberOfPixels() *
+                    sizeof(typename TFilter::OutputImageType::PixelType)) +
+      " is more than the " + DescribeBytes(MemoryAllowance(settings.maximumMemory)) +
+      " that are allowed; it is made in " + Count(FindDivisions(lattice), "slab") + ", again for each pass over it" +
+      (stream->surfaces.afterwards > 0 ? "; the surface will take some " + DescribeBytes(stream->surfaces.afterwards)
+                                       : ""));
   }
   else
   {
