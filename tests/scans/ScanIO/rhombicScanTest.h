@@ -62,7 +62,12 @@ Series(const std::string & name)
 inline std::string
 WithoutTemporaryFolder(std::string sentence)
 {
-  const std::string folder = std::filesystem::temp_directory_path().string();
+  std::error_code isMissing;
+  const std::string folder = std::filesystem::temp_directory_path(isMissing).string();
+  if (folder.empty())
+  {
+    return sentence;
+  }
   for (auto found = sentence.find(folder); found != std::string::npos; found = sentence.find(folder))
   {
     sentence.erase(found, folder.size());
