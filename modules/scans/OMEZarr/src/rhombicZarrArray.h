@@ -3,6 +3,7 @@
 
 #include "rhombicFailure.h"
 #include "rhombicForEachBlock.h"
+#include "rhombicOMEZarrImage.h"
 
 #include <array>
 #include <cstddef>
@@ -41,16 +42,7 @@ constexpr std::size_t MostZarrAxes = 5;
 using ZarrNumbers = std::array<std::size_t, MostZarrAxes>;
 
 /** The type of the numbers in an array: any value of that type. */
-using ZarrType = std::variant<std::uint8_t,
-                              std::int8_t,
-                              std::uint16_t,
-                              std::int16_t,
-                              std::uint32_t,
-                              std::int32_t,
-                              std::uint64_t,
-                              std::int64_t,
-                              float,
-                              double>;
+using ZarrType = OMEZarrImage::Type;
 
 /** \class ZarrArray
  * \brief An array of numbers in chunks, each of which is a file (Zarr version 2).
