@@ -1,6 +1,7 @@
 #include "rhombicPresets.h"
 
 #include "rhombicFailure.h"
+#include "rhombicGermanNumbers.h"
 
 #include <gtest/gtest.h>
 
@@ -113,29 +114,9 @@ TEST(Presets, ReadEverythingASurfaceHas)
   EXPECT_FALSE(preset.surfaces[1].insideIsBelow);
 }
 
-/** Numbers with a comma, as in German, and digits in groups. */
-class CommaNumbers : public std::numpunct<char>
-{
-  char
-  do_decimal_point() const override
-  {
-    return ',';
-  }
-  char
-  do_thousands_sep() const override
-  {
-    return '.';
-  }
-  std::string
-  do_grouping() const override
-  {
-    return "\3";
-  }
-};
-
 TEST(Presets, DoNotDependOnTheLocaleOfTheHost)
 {
-  const std::locale before = std::locale::global(std::locale(std::locale::classic(), new CommaNumbers));
+  const std::locale before = std::locale::global(std::locale(std::locale::classic(), new rhombictest::GermanNumbers));
   const auto preset =
     rhombic::ParsePreset("name: x\nsurfaces: [{name: a, isovalue: 1.5, opacity: 0.5, min-volume: 0.2}]", "test");
   std::locale::global(before);
