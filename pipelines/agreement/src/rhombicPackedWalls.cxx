@@ -70,8 +70,8 @@ PackedWalls::PackedWalls(itk::LabelWalls & walls)
   using Pair = itk::LabelWalls::LabelPairType;
   m_Points =
     Pack<Blocks>(source.GetPoints(), meshopt_encodeVertexBufferBound(BlockSize, sizeof(Point)), EncodeElements);
-  m_Labels = Pack<Blocks>(
-    source.GetTriangleLabels(), meshopt_encodeVertexBufferBound(BlockSize, sizeof(Pair)), EncodeElements);
+  m_Labels =
+    Pack<Blocks>(source.GetTriangleLabels(), meshopt_encodeVertexBufferBound(BlockSize, sizeof(Pair)), EncodeElements);
   m_Triangles = Pack<Blocks>(source.GetTriangles(),
                              meshopt_encodeIndexSequenceBound(3 * BlockSize, source.GetNumberOfPoints()),
                              [](unsigned char * target, std::size_t size, const auto * triangles, std::size_t count) {

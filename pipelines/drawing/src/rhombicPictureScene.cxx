@@ -315,7 +315,7 @@ ShadedSurfaces(const PictureScene & scene)
 std::vector<SceneSurface>
 InFewerTriangles(std::vector<SceneSurface> surfaces, double pixelSize)
 {
-  constexpr double unseen = 0.25; // pixels
+  constexpr double unseen = 0.25;         // pixels
   constexpr std::size_t many = 1'000'000; // fewer are drawn quickly, and a copy takes memory
   std::size_t triangles = 0;
   for (const SceneSurface & surface : surfaces)

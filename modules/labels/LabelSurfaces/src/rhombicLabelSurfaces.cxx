@@ -236,7 +236,8 @@ WallsOfProbabilities(const LabelMap & map,
     "use a coarser lattice, or crop the volumes of probabilities");
   ObserveProgress(*toLattice, "extracting labels", events);
   toLattice->Update();
-  itk::LabelWalls::Pointer walls = ExtractWalls(std::move(toLattice), RelaxationByProbabilities(*map.probabilities.front()), {});
+  itk::LabelWalls::Pointer walls =
+    ExtractWalls(std::move(toLattice), RelaxationByProbabilities(*map.probabilities.front()), {});
   std::vector<std::uint16_t> chosen(map.probabilities.size() + 1);
   for (std::size_t n = 0; n < labels.size(); ++n)
   {
