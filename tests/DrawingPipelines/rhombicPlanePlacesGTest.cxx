@@ -129,7 +129,7 @@ TEST(PlanePlaces, SlicesKnowTheSurfacesThatTheyCut)
 TEST(PlanePlaces, SurfacesWithoutNormalsAreShaded)
 {
   const PictureScene scene = SceneOfBoxes();
-  const std::vector<SceneSurface> shaded = ShadedSurfaces(scene);
+  const std::vector<SceneSurface> shaded = ShadedSurfaces(scene.surfaces);
   ASSERT_EQ(shaded.size(), 4u);
   EXPECT_TRUE(shaded[0].surface->HasNormals());
   EXPECT_EQ(shaded[0].surface->GetNumberOfPoints(), 24u) << "sharp edges";

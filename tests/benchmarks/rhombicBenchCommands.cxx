@@ -364,7 +364,7 @@ MeasurePage(const std::string & scan, const std::vector<std::string> & source, c
   const nlohmann::json weight = ReadWeight(file);
   const double kept = weight.at("triangles").get<double>() / weight.at("trianglesBefore").get<double>();
   const Command simplify{ "--max-error",
-                          FormatExact(weight.at("surfaceError_mm")),
+                          FormatExact(weight.at("measuredSurfaceError_mm")),
                           "--max-triangles",
                           FormatFixed(100.0 * std::min(share, kept), 3) + "%",
                           "-o",

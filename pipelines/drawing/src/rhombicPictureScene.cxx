@@ -3,6 +3,7 @@
 #include "rhombicScanReader.h"
 #include "rhombicSlicePart.h"
 #include "rhombicFailure.h"
+#include "rhombicFewerTriangles.h"
 #include "rhombicForEachBlock.h"
 #include "rhombicGreyWindow.h"
 #include "rhombicLabelTable.h"
@@ -12,7 +13,6 @@
 #include "rhombicSurfaceReport.h"
 #include "rhombicWording.h"
 
-#include "itkTriangleSurfaceForRendering.h"
 #include "itkTriangleSurfaceShading.h"
 
 #include <algorithm>
@@ -296,10 +296,9 @@ ColourSurfaces(const ColourBy & by, PictureScene & scene, const Events & events)
 }
 
 std::vector<SceneSurface>
-ShadedSurfaces(const PictureScene & scene)
+ShadedSurfaces(std::vector<SceneSurface> surfaces)
 {
-  std::vector<SceneSurface> shaded = scene.surfaces;
-  for (SceneSurface & surface : shaded)
+  for (SceneSurface & surface : surfaces)
   {
     if (!surface.surface->HasNormals() && !surface.pointColours)
     {
@@ -309,27 +308,23 @@ ShadedSurfaces(const PictureScene & scene)
       surface.surface = copy;
     }
   }
-  return shaded;
+  return surfaces;
 }
 
 std::vector<SceneSurface>
-InFewerTriangles(std::vector<SceneSurface> surfaces, double pixelSize)
+SurfacesForViews(const std::vector<SceneSurface> & surfaces,
+                 const RenderSettings & render,
+                 const std::vector<View> & views)
 {
-  constexpr double unseen = 0.25;         // pixels
-  constexpr std::size_t many = 1'000'000; // fewer are drawn quickly, and a copy takes memory
-  std::size_t triangles = 0;
-  for (const SceneSurface & surface : surfaces)
+  if (std::any_of(surfaces.begin(), surfaces.end(), [](const auto & surface) { return surface.pointColours; }))
   {
-    triangles += surface.surface->GetNumberOfTriangles();
+    return ShadedSurfaces(surfaces);
   }
-  ForEachOnThreads(triangles > many ? surfaces.size() : 0, [&](std::size_t n) {
-    const itk::TriangleSurface & whole = *surfaces[n].surface;
-    const auto fewer = itk::TriangleSurface::New();
-    fewer->Graft(&whole);
-    fewer->GetTriangles() = itk::SimplifySheetForRendering(whole.GetPoints(), whole.GetTriangles(), unseen * pixelSize);
-    surfaces[n].surface = fewer;
-  });
-  return surfaces;
+  constexpr double unseen = 0.5; // pixels
+  Scene scene;
+  scene.surfaces = surfaces;
+  const double pixelSize = SurfaceRenderer::Plan(scene, render, views).front().pixelSize;
+  return ShadedSurfaces(InFewerTriangles(surfaces, unseen * pixelSize));
 }
 
 std::vector<PointedName>

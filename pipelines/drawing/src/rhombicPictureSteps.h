@@ -61,14 +61,14 @@ BoxOfSurfaces(const std::vector<SceneSurface> & surfaces);
 
 /** The surfaces as they are drawn in views: those without normals, as of STL files, get normals for shading. */
 std::vector<SceneSurface>
-ShadedSurfaces(const PictureScene & scene);
+ShadedSurfaces(std::vector<SceneSurface> surfaces);
 
-/** Surfaces in fewer triangles, for several small pictures in which they look the same: points and normals stay, and
- * triangles are left out whose points are about a quarter of a pixel away from the others or nearer. If all together
- * have fewer than about one triangle for each pixel, all stay, as leaving some out would take as long as drawing them.
- */
+/** As ShadedSurfaces(), for several views: in as few triangles as give the same pictures (InFewerTriangles() within
+ * half a pixel), unless points have colours. */
 std::vector<SceneSurface>
-InFewerTriangles(std::vector<SceneSurface> surfaces, double pixelSize);
+SurfacesForViews(const std::vector<SceneSurface> & surfaces,
+                 const RenderSettings & render,
+                 const std::vector<View> & views);
 
 /** Names of a scene's surfaces for a picture.
  * \param places in the view that the projection is of */

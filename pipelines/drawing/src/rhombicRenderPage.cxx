@@ -45,7 +45,6 @@ AnnotationsOf(const PictureScene & scene)
 void
 DrawViews(const RenderPageSettings & settings,
           const PictureScene & source,
-          const Scene & scene,
           SurfaceRenderer & renderer,
           PageContent & page)
 {
@@ -54,6 +53,8 @@ DrawViews(const RenderPageSettings & settings,
   Annotations annotations = AnnotationsOf(source);
   annotations.scale = source.scale;
   render.margins = MarginsOf(annotations, render.width, render.height, settings.views.front().frame);
+  Scene scene;
+  scene.surfaces = SurfacesForViews(source.surfaces, render, settings.views);
   auto drawn = renderer.Render(scene, render, settings.views);
   for (std::size_t n = 0; n < drawn.size(); ++n)
   {
@@ -67,7 +68,6 @@ DrawViews(const RenderPageSettings & settings,
 void
 DrawTurntable(const RenderPageSettings & settings,
               const PictureScene & source,
-              const Scene & scene,
               SurfaceRenderer & renderer,
               PageContent & page)
 {
@@ -80,10 +80,9 @@ DrawTurntable(const RenderPageSettings & settings,
   render.ambientOcclusion = !source.scale;
   render.centre = CentreOf(BoxAround(source.surfaces));
   constexpr int quality = 78;
-  Scene small = scene;
-  small.surfaces =
-    InFewerTriangles(scene.surfaces, SurfaceRenderer::Plan(scene, render, turn).front().pixelSize); // that of all
-  renderer.Render(small, render, turn, [&page](const RenderedView & view) {
+  Scene scene;
+  scene.surfaces = SurfacesForViews(source.surfaces, render, turn);
+  renderer.Render(scene, render, turn, [&page](const RenderedView & view) {
     page.turntable.push_back(EncodeJpeg(view.picture, quality, true));
   });
 }
@@ -209,12 +208,10 @@ DrawPictures(const RenderPageSettings & settings,
              const Events & events,
              PageContent & content)
 {
-  Scene drawn;
-  drawn.surfaces = ShadedSurfaces(scene);
   events.Progress("drawing views", 0.0);
-  DrawViews(settings, scene, drawn, renderer, content);
+  DrawViews(settings, scene, renderer, content);
   events.Progress("turning the surfaces", 0.0);
-  DrawTurntable(settings, scene, drawn, renderer, content);
+  DrawTurntable(settings, scene, renderer, content);
   events.Progress("drawing slices", 0.0);
   DrawSlices(settings, scene, content);
 }
@@ -228,7 +225,6 @@ ReportWeight(const PageWeight & weight)
                  { "bytesOfPictures", weight.sizeOfPictures },
                  { "trianglesBefore", weight.trianglesBefore },
                  { "triangles", weight.triangles },
-                 { "surfaceError_mm", weight.surfaceError },
                  { "measuredSurfaceError_mm", weight.measuredError },
                  { "positionStep_mm", weight.quantum } };
   if (weight.grid[0] > 0)

@@ -337,7 +337,8 @@ DrawViews(const RenderScanSettings & settings,
   const bool isTransparent = settings.render.style == PictureStyle::Transparent;
   std::vector<View> views = ViewsOf(settings);
   Scene scene;
-  scene.surfaces = ShadedSurfaces(source);
+  scene.surfaces = settings.turntable > 0 ? SurfacesForViews(source.surfaces, settings.render, views)
+                                          : ShadedSurfaces(source.surfaces);
   scene.cuts = cuts;
   AddCaps(settings, source, scene);
   AddPlanes(settings, source, scene);

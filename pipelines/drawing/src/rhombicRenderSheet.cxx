@@ -130,7 +130,7 @@ DrawViews(const RenderSheetSettings & settings,
   render.margins = MarginsOf(annotations, render.width, render.height, settings.views.front().frame);
   render.maximumMemory = settings.source.scan.lattice.maximumMemory;
   Scene scene;
-  scene.surfaces = ShadedSurfaces(source);
+  scene.surfaces = SurfacesForViews(source.surfaces, render, settings.views);
   std::vector<std::vector<NamePlace>> places(settings.views.size());
   if (settings.names)
   {

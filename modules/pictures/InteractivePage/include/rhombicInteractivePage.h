@@ -80,9 +80,8 @@ struct PageWeight
   std::uintmax_t sizeOfSurfaces = 0; ///< bytes of these parts in the page
   std::uintmax_t sizeOfSlices = 0;
   std::uintmax_t sizeOfPictures = 0;
-  std::size_t trianglesBefore = 0;
+  std::size_t trianglesBefore = 0; ///< of the surfaces that were given; those of shared walls count for each
   std::size_t triangles = 0;
-  double surfaceError = 0.0;  ///< mm that no part of the surfaces was moved farther than; 0: not simplified
   double measuredError = 0.0; ///< mm: the largest distance of simplified surfaces where it was measured
   double quantum = 0.0;       ///< mm: the distance of positions that the page can tell apart
   std::array<int, 3> grid{};  ///< samples of the slices along x, y and z; 0 without slices
@@ -103,14 +102,13 @@ struct MadePage
 /** Makes a page: one HTML file that shows pictures and a table without scripts, slices and a turntable with scripts,
  * and surfaces that can be turned with WebGL2. Its Content-Security-Policy forbids every request to a network.
  *
- * Surfaces are simplified to a quarter of their triangles, or to as many as there is room for in
- * PageContent::largestSize, but no part of them is moved farther than 0.1 mm for the quarter, nor than 3.2 mm for the
- * room; slices are resampled to at most 256 x 256 x 256 samples along the patient's axes, in fewer grey levels where
- * surfaces would have too little room. Values of points are interpolated at the points of the simplified surface, and
- * have 255 steps from the scale's lower to its upper end; surfaces with values do not share walls, so that each has its
- * own values there, and neighbours are simplified apart. A page that is too large all the same is made, with a note.
- * The same bytes for any number of threads. Pictures and surfaces are freed as soon as they are coded or joined, where
- * nobody else holds them: give the content away by std::move().
+ * Surfaces are simplified by quadrics (InFewerTriangles()) as far as 0.1 mm allows, or up to 3.2 mm to as many
+ * triangles as there is room for in PageContent::largestSize; slices are resampled to at most 256 x 256 x 256 samples
+ * along the patient's axes, in fewer grey levels where surfaces would have too little room. Values of points have 255
+ * steps from the scale's lower to its upper end; surfaces with values do not share walls, so that each has its own
+ * values there. A page that is too large all the same is made, with a note. The same bytes for any number of threads.
+ * Pictures and surfaces are freed as soon as they are coded or joined, where nobody else holds them: give the content
+ * away by std::move().
  *
  * Throws Failure(Usage) without surfaces. */
 MadePage

@@ -1,6 +1,8 @@
 #include "rhombicInteractivePage.h"
 
+#include "itkTriangleSurfaceDistance.h"
 #include "rhombicFailure.h"
+#include "rhombicFewerTriangles.h"
 #include "rhombicMemoryBudget.h"
 #include "rhombicPageBytes.h"
 #include "rhombicPageMesh.h"
@@ -13,8 +15,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numeric>
+#include <optional>
 
 namespace rhombic
 {
@@ -25,25 +29,21 @@ using Json = nlohmann::ordered_json;
 
 constexpr int SlicesOfBlock = 16;
 
-/** How slices are coded, where surfaces then have room for a share of their triangles: the first row that they have. */
+/** How slices are coded, where surfaces then have room for a share of their bytes: the first row that they have. */
 struct SliceCoding
 {
   int levelFactor;   ///< grey levels so many times as far from each other
   int sliceStep;     ///< every so many slices
-  double leastShare; ///< of the triangles
+  double leastShare; ///< of the bytes of surfaces that are simplified by SmallestError only
 };
 
-constexpr SliceCoding SliceCodings[] = { { 1, 1, 0.25 }, { 2, 1, 0.1 }, { 4, 1, 0.05 }, { 4, 2, 0.02 }, { 4, 4, 0.0 } };
+constexpr SliceCoding SliceCodings[] = { { 1, 1, 1.0 }, { 2, 1, 0.4 }, { 4, 1, 0.2 }, { 4, 2, 0.08 }, { 4, 4, 0.0 } };
 
 constexpr double ShareOfPictures = 0.7; // of the page's size, at most; else there are fewer views around the patient
 constexpr std::size_t FewestTurns = 6;
-constexpr double ShareOfTriangles = 0.25; // more are hardly seen
-constexpr double ErrorForShare = 0.1;     // mm
-constexpr double LargestError = 3.2;      // mm
-constexpr std::size_t FewestTriangles = 100;
-constexpr std::uintmax_t SizeOfNotes = 2000;  // bytes, at most, what the page says of its reduction
-constexpr double BytesOfTriangle = 3.4;       // in base64; surfaces with many triangles need 3.3
-constexpr double BytesOfValuedTriangle = 4.2; // where points have values
+constexpr double SmallestError = 0.1;        // mm, of simplification: less is not seen
+constexpr double LargestError = 3.2;         // mm
+constexpr std::uintmax_t SizeOfNotes = 2000; // bytes, at most, what the page says of its reduction
 
 /** A data block of the page: what browsers do not run, under an id that the script looks for. */
 std::string
@@ -234,6 +234,8 @@ struct FixedParts
 struct ReducedParts
 {
   PageMesh mesh;
+  std::size_t triangles = 0;  ///< of the surfaces; those of shared walls count for each
+  double measuredError = 0.0; ///< mm, the largest distance of simplified surfaces where it was measured
   PageVolume volume;
   std::string surfaceBlocks;
   std::string sliceBlocks;
@@ -282,8 +284,8 @@ MakeFixedParts(PageContent & content)
 }
 
 /** Takes the surfaces of the content. */
-PageMeshMaker
-MakerOf(PageContent & content)
+std::vector<SceneSurface>
+TakeSurfaces(PageContent & content)
 {
   std::vector<SceneSurface> surfaces;
   for (PageSurface & surface : content.surfaces)
@@ -291,39 +293,79 @@ MakerOf(PageContent & content)
     surfaces.push_back(std::move(surface.scene));
   }
   content.surfaces.clear();
-  return PageMeshMaker(surfaces, content.scale);
+  return surfaces;
 }
 
-/** Simplifies surfaces once for the room that they have, and goes on with larger errors only where that is too little:
- * slightly larger where as many triangles as hoped for need more bytes than hoped for. */
-void
-CodeSurfaces(std::uintmax_t room,
-             double bytesOfTriangle,
-             const Events & events,
-             PageMeshMaker & maker,
-             ReducedParts & parts)
+std::size_t
+CountTriangles(const std::vector<SceneSurface> & surfaces)
 {
-  const auto triangles = static_cast<double>(maker.GetNumberOfTriangles());
-  double target = std::min(static_cast<double>(room) / bytesOfTriangle, ShareOfTriangles * triangles);
-  bool isReached = false;
-  for (double error = ErrorForShare; error <= LargestError;
-       error = isReached ? std::round(10.0 * error + 1.0) / 10.0 : 2.0 * error)
+  return std::accumulate(
+    surfaces.begin(), surfaces.end(), std::size_t{ 0 }, [](std::size_t sum, const SceneSurface & surface) {
+      return sum + surface.surface->GetNumberOfTriangles();
+    });
+}
+
+/** The largest distance in mm between surfaces and the same ones in fewer triangles, measured at some of each. */
+double
+MeasureError(const std::vector<SceneSurface> & surfaces, const std::vector<SceneSurface> & fewer)
+{
+  constexpr double measured = 60'000.0; // triangles, about
+  const double share = std::min(1.0, measured / static_cast<double>(CountTriangles(surfaces)));
+  double largest = 0.0;
+  for (std::size_t n = 0; n < surfaces.size(); ++n)
   {
-    const std::size_t wanted = std::max(FewestTriangles, static_cast<std::size_t>(target));
+    const itk::TriangleSurface & surface = *surfaces[n].surface;
+    if (surface.GetNumberOfTriangles() > 0)
+    {
+      const auto some = static_cast<itk::SizeValueType>(share * static_cast<double>(surface.GetNumberOfTriangles()));
+      const auto distances =
+        ComputeTriangleSurfaceDistances(surface, *fewer[n].surface, std::max<itk::SizeValueType>(1, some));
+      largest = std::max(largest, distances.GetMaximum());
+    }
+  }
+  return largest;
+}
+
+/** Codes surfaces in fewer triangles. */
+void
+CodeSurfaces(const std::vector<SceneSurface> & surfaces, const std::optional<ColourScale> & scale, ReducedParts & parts)
+{
+  parts.mesh = MakePageMesh(surfaces, scale);
+  parts.triangles = CountTriangles(surfaces);
+  parts.surfaceBlocks = DataBlock("points", parts.mesh.pointBytes) + DataBlock("triangles", parts.mesh.triangleBytes);
+}
+
+/** Simplifies surfaces by an error that is not seen, and goes on with larger errors only where that is too little for
+ * the room that \a findRoom finds once they are coded. */
+void
+ReduceSurfaces(const std::vector<SceneSurface> & surfaces,
+               const std::optional<ColourScale> & scale,
+               const std::function<std::uintmax_t()> & findRoom,
+               const Events & events,
+               ReducedParts & parts)
+{
+  std::optional<double> room;
+  double leastShare = 0.0;
+  for (double error = SmallestError; error <= LargestError; error *= 2.0)
+  {
+    events.Progress("simplifying surfaces", 0.0);
+    const auto fewer = InFewerTriangles(surfaces, error, leastShare);
     GiveBackFreedMemory();
-    maker.Simplify(wanted, error, [&events](double done) { events.Progress("simplifying surfaces", done); });
     events.Progress("coding surfaces", 0.0);
-    GiveBackFreedMemory();
-    parts.mesh = maker.Make();
-    parts.surfaceBlocks = DataBlock("points", parts.mesh.pointBytes) + DataBlock("triangles", parts.mesh.triangleBytes);
-    const auto taken = static_cast<double>(parts.surfaceBlocks.size() + DescribeMesh(parts.mesh).dump().size());
-    if (taken <= static_cast<double>(room) || !parts.mesh.refusal.empty())
+    CodeSurfaces(fewer, scale, parts);
+    parts.measuredError = MeasureError(surfaces, fewer);
+    if (!room)
+    {
+      room = static_cast<double>(findRoom());
+    }
+    const auto taken = static_cast<double>(parts.surfaceBlocks.size());
+    if (taken <= *room)
     {
       return;
     }
-    isReached = parts.mesh.triangles <= wanted && wanted > FewestTriangles;
     constexpr double safety = 0.98; // fewer triangles need more bytes each
-    target = safety * static_cast<double>(room) / taken * static_cast<double>(parts.mesh.triangles);
+    leastShare =
+      safety * *room / taken * static_cast<double>(parts.triangles) / static_cast<double>(CountTriangles(surfaces));
   }
 }
 
@@ -349,23 +391,13 @@ DescribeReduction(const PageWeight & weight,
 {
   const std::string unit = content.unit.empty() ? "" : " " + content.unit;
   std::vector<std::string> notes;
-  if (parts.mesh.refusal.empty() && weight.surfaceError == 0.0)
-  {
-    notes.push_back("surfaces: " + std::to_string(weight.triangles) +
-                    " triangles, not simplified; positions in steps of " + FormatNumber(weight.quantum, 2) + " mm");
-  }
-  else if (parts.mesh.refusal.empty())
-  {
-    notes.push_back("surfaces: " + std::to_string(weight.triangles) + " of " + std::to_string(weight.trianglesBefore) +
-                    " triangles, " + FormatNumber(weight.measuredError, 2) +
-                    " mm away at most where measured, nowhere more than " + FormatNumber(weight.surfaceError) +
-                    " mm; positions in steps of " + FormatNumber(weight.quantum, 2) + " mm");
-  }
-  else
-  {
-    notes.push_back("surfaces: not simplified, as they are no manifold; " + std::to_string(weight.triangles) +
-                    " triangles");
-  }
+  const std::string steps = "; positions in steps of " + FormatNumber(weight.quantum, 2) + " mm";
+  notes.push_back("surfaces: " + std::to_string(weight.triangles) +
+                  (weight.triangles == weight.trianglesBefore
+                     ? " triangles, not simplified"
+                     : " of " + std::to_string(weight.trianglesBefore) + " triangles, " +
+                         FormatNumber(weight.measuredError, 2) + " mm away at most where measured") +
+                  steps);
   if (HasSlices(parts.volume))
   {
     notes.push_back("slices: " + FormatProduct(weight.grid) + " samples of " + FormatProduct(weight.spacing, 3) +
@@ -395,10 +427,8 @@ WeightOf(const FixedParts & fixed, const ReducedParts & parts)
   weight.sizeOfSurfaces = parts.surfaceBlocks.size();
   weight.sizeOfSlices = parts.sliceBlocks.size();
   weight.sizeOfPictures = fixed.pictures.size() + fixed.turntable.size();
-  weight.trianglesBefore = parts.mesh.trianglesBefore;
-  weight.triangles = parts.mesh.triangles;
-  weight.surfaceError = parts.mesh.error;
-  weight.measuredError = parts.mesh.measuredError;
+  weight.triangles = parts.triangles;
+  weight.measuredError = parts.measuredError;
   weight.quantum = parts.mesh.quantum;
   if (HasSlices(parts.volume))
   {
@@ -464,6 +494,32 @@ FillPage(const PageContent & content,
                 { "script", PageScript } });
 }
 
+/** Codes slices so that surfaces have enough room. Returns the bytes that they have. */
+std::uintmax_t
+CodeForRoom(const PageContent & content,
+            const FixedParts & fixed,
+            const PageVolume & volume,
+            const Events & events,
+            ReducedParts & parts)
+{
+  std::uintmax_t room = 0;
+  for (const SliceCoding & coding : SliceCodings)
+  {
+    if (HasSlices(volume))
+    {
+      events.Progress("coding slices", 0.0);
+      CodeSlices(Coarsen(volume, coding.levelFactor, coding.sliceStep), parts);
+    }
+    const std::uintmax_t others = FillPage(content, fixed, parts, {}).size() - parts.surfaceBlocks.size() + SizeOfNotes;
+    room = content.largestSize > others ? content.largestSize - others : 0;
+    if (static_cast<double>(room) >= coding.leastShare * static_cast<double>(parts.surfaceBlocks.size()))
+    {
+      break;
+    }
+  }
+  return room;
+}
+
 } // namespace
 
 MadePage
@@ -478,29 +534,13 @@ MakeInteractivePage(PageContent content, const Events & events)
   events.Progress("sampling slices", 0.0);
   PageVolume volume = content.scan ? MakePageVolume(*content.scan, content.box) : PageVolume();
   content.scan.reset(); // its memory is needed for the surfaces
-  PageMeshMaker maker = MakerOf(content);
+  const std::vector<SceneSurface> surfaces = TakeSurfaces(content);
   ReducedParts parts;
-  const double bytesOfTriangle = content.scale ? BytesOfValuedTriangle : BytesOfTriangle;
-  std::uintmax_t room = 0;
-  for (const SliceCoding & coding : SliceCodings)
-  {
-    if (HasSlices(volume))
-    {
-      events.Progress("coding slices", 0.0);
-      CodeSlices(Coarsen(volume, coding.levelFactor, coding.sliceStep), parts);
-    }
-    const std::uintmax_t taken = FillPage(content, fixed, parts, {}).size() + SizeOfNotes;
-    room = content.largestSize > taken ? content.largestSize - taken : 0;
-    if (static_cast<double>(room) >=
-        bytesOfTriangle * coding.leastShare * static_cast<double>(maker.GetNumberOfTriangles()))
-    {
-      break;
-    }
-  }
-  volume = {};
-  CodeSurfaces(room, bytesOfTriangle, events, maker, parts);
+  ReduceSurfaces(
+    surfaces, content.scale, [&]() { return CodeForRoom(content, fixed, volume, events, parts); }, events, parts);
   MadePage page;
   page.weight = WeightOf(fixed, parts);
+  page.weight.trianglesBefore = CountTriangles(surfaces);
   page.weight.size = FillPage(content, fixed, parts, {}).size();
   page.weight.notes = DescribeReduction(page.weight, content, fixed, parts);
   page.html = FillPage(content, fixed, parts, page.weight.notes);

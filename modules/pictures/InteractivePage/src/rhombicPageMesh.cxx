@@ -2,17 +2,12 @@
 
 #include "rhombicPageBytes.h"
 
-#include "itkTriangleSurfaceDistance.h"
-#include "itkTriangleSurfaceSimplification.h"
-
 #include <meshoptimizer.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <utility>
 
 namespace rhombic
 {
@@ -21,9 +16,8 @@ namespace
 
 using Surface = itk::TriangleSurface;
 using Sides = std::array<std::uint32_t, 2>;
+using Corners = std::vector<std::uint32_t>;    // points of triangles, three for each
 using Position = std::array<std::uint16_t, 4>; // meshoptimizer codes multiples of 4 bytes
-
-constexpr double LeastOfShare = 0.5; // of a sheet, where others kept more
 
 /** Adds points and triangles of a surface to others. */
 void
@@ -52,88 +46,6 @@ AppendSurfaces(const std::vector<SceneSurface> & surfaces)
   return joined;
 }
 
-/** Simplifies sheets that have no points in common, each on its own: they may lie in the same place, as walls of
- * neighbours do, where one could not change beside the other. Each is simplified to the same share of its triangles, or
- * to a smaller one where those before it kept more. */
-void
-SimplifyApart(Surface & surface,
-              std::vector<std::uint32_t> & sheets,
-              std::size_t numberOfSheets,
-              std::size_t triangles,
-              double error,
-              const ProgressFunction & report)
-{
-  auto wanted = static_cast<double>(triangles); // of this and the following sheets
-  auto remaining = static_cast<double>(sheets.size());
-  std::vector<Surface::Pointer> parts;
-  for (std::size_t n = 0; n < numberOfSheets; ++n)
-  {
-    parts.push_back(Surface::New());
-    parts.back()->GetPoints() = surface.GetPoints();
-    for (std::size_t triangle = 0; triangle < sheets.size(); ++triangle)
-    {
-      if (sheets[triangle] == n)
-      {
-        parts.back()->GetTriangles().push_back(surface.GetTriangles()[triangle]);
-      }
-    }
-    parts.back()->RemoveUnusedPoints();
-    const auto before = static_cast<double>(parts.back()->GetNumberOfTriangles());
-    const double target =
-      std::max(LeastOfShare * static_cast<double>(triangles) / static_cast<double>(sheets.size()), wanted / remaining) *
-      before;
-    // Surfaces of labels may meet themselves at edges and points, as sheets may, but not those of sheet 0 alone.
-    std::vector<std::uint32_t> sheet(parts.back()->GetNumberOfTriangles(), 1);
-    SimplifyTriangleSurface(
-      *parts.back(), sheet, { std::max<std::size_t>(1, static_cast<std::size_t>(target)), error });
-    wanted -= static_cast<double>(parts.back()->GetNumberOfTriangles());
-    remaining -= before;
-    if (report)
-    {
-      report(static_cast<double>(n + 1) / static_cast<double>(numberOfSheets));
-    }
-  }
-  surface.GetPoints().clear();
-  surface.GetTriangles().clear();
-  sheets.clear();
-  for (std::uint32_t n = 0; n < numberOfSheets; ++n)
-  {
-    Append(*parts[n], surface);
-    sheets.resize(surface.GetNumberOfTriangles(), n);
-  }
-}
-
-/** The value of a surface's point nearest to a position, linear in the triangle; NaN where a corner has none. */
-double
-ValueNear(const SceneSurface & surface,
-          const itk::TriangleTree & tree,
-          const itk::TriangleTree::PositionType & position)
-{
-  const auto nearest = tree.FindClosestPoint(position);
-  if (nearest.triangle == itk::TriangleTree::None)
-  {
-    return std::numeric_limits<double>::quiet_NaN();
-  }
-  const auto & triangle = surface.surface->GetTriangles()[nearest.triangle];
-  std::array<Vector3, 3> corners;
-  for (std::size_t corner = 0; corner < 3; ++corner)
-  {
-    const auto & point = surface.surface->GetPoints()[triangle[corner]];
-    corners[corner] = { point[0], point[1], point[2] };
-  }
-  double sum = 0.0;
-  double weights = 0.0;
-  for (std::size_t corner = 0; corner < 3; ++corner) // the area opposite to a corner is its weight
-  {
-    const Vector3 & next = corners[(corner + 1) % 3];
-    const Vector3 & last = corners[(corner + 2) % 3];
-    const double weight = Length(Cross(Subtract(next, nearest.point), Subtract(last, nearest.point)));
-    sum += weight * static_cast<double>(surface.pointValues->values[triangle[corner]]);
-    weights += weight;
-  }
-  return weights > 0.0 ? sum / weights : static_cast<double>(surface.pointValues->values[triangle[0]]);
-}
-
 /** The number of a value: 1 at the scale's lower end, 255 at its upper end, 0 for none. */
 std::uint16_t
 NumberOf(const ColourScale & scale, double value)
@@ -144,30 +56,16 @@ NumberOf(const ColourScale & scale, double value)
 }
 
 /** Triangles in the order of their sheets, and in each in the order of the vertex cache. */
-std::vector<std::uint32_t>
-OrderTriangles(const Surface & surface,
-               const std::vector<Sides> & sides,
-               const std::vector<std::uint32_t> & sheets,
-               PageMesh & mesh)
+Corners
+OrderTriangles(const std::map<Sides, Corners> & sheets, std::size_t points, PageMesh & mesh)
 {
-  const auto & triangles = surface.GetTriangles();
-  const std::size_t points = surface.GetNumberOfPoints();
-  std::vector<std::vector<std::uint32_t>> corners(sides.size());
-  for (std::size_t n = 0; n < triangles.size(); ++n)
+  Corners ordered;
+  for (const auto & [sides, corners] : sheets)
   {
-    auto & sheet = corners[sheets[n]];
-    sheet.insert(sheet.end(), triangles[n].begin(), triangles[n].end());
-  }
-  std::vector<std::uint32_t> ordered;
-  for (std::size_t n = 0; n < corners.size(); ++n)
-  {
-    if (!corners[n].empty())
-    {
-      const std::size_t first = ordered.size();
-      ordered.resize(first + corners[n].size());
-      meshopt_optimizeVertexCacheStrip(ordered.data() + first, corners[n].data(), corners[n].size(), points);
-      mesh.sheets.push_back({ sides[n][0], sides[n][1], corners[n].size() / 3 });
-    }
+    const std::size_t first = ordered.size();
+    ordered.resize(first + corners.size());
+    meshopt_optimizeVertexCacheStrip(ordered.data() + first, corners.data(), corners.size(), points);
+    mesh.sheets.push_back({ sides[0], sides[1], corners.size() / 3 });
   }
   return ordered;
 }
@@ -202,7 +100,7 @@ QuantizePoints(const Surface & surface, const PageMesh & mesh, const std::vector
 }
 
 void
-Encode(std::vector<std::uint32_t> corners, const std::vector<Position> & positions, PageMesh & mesh)
+Encode(Corners corners, const std::vector<Position> & positions, PageMesh & mesh)
 {
   std::vector<unsigned int> newNumbers(positions.size());
   mesh.points = meshopt_optimizeVertexFetchRemap(newNumbers.data(), corners.data(), corners.size(), positions.size());
@@ -219,125 +117,41 @@ Encode(std::vector<std::uint32_t> corners, const std::vector<Position> & positio
   mesh.triangleBytes = Deflate({ reinterpret_cast<const char *>(bytes.data()), bytes.size() });
 }
 
-} // namespace
-
-PageMeshMaker::PageMeshMaker(const std::vector<SceneSurface> & surfaces, const std::optional<ColourScale> & scale)
-  : m_Scale(scale)
-  , m_Valued(scale ? surfaces : std::vector<SceneSurface>())
-{
-  const JoinedSurfaces joined = scale ? AppendSurfaces(surfaces) : JoinSurfaces(surfaces);
-  std::map<Sides, std::uint32_t> numbers;
-  for (const Sides & sides : joined.sides)
-  {
-    numbers.emplace(sides, 0);
-  }
-  for (auto & [sides, number] : numbers)
-  {
-    number = static_cast<std::uint32_t>(m_Sides.size());
-    m_Sides.push_back(sides);
-  }
-  for (const Sides & sides : joined.sides)
-  {
-    m_Sheets.push_back(numbers[sides]);
-  }
-  m_Surface = joined.surface;
-  const auto original = Surface::New();
-  original->Graft(m_Surface);
-  m_Original = original;
-}
-
-std::size_t
-PageMeshMaker::GetNumberOfTriangles() const
-{
-  return m_Surface->GetNumberOfTriangles();
-}
-
-void
-PageMeshMaker::Simplify(std::size_t triangles, double error, const ProgressFunction & report)
-{
-  if (triangles >= this->GetNumberOfTriangles() || error <= m_Error || !m_Refusal.empty())
-  {
-    return;
-  }
-  const auto before = Surface::New();
-  before->Graft(m_Surface);
-  const auto sheets = m_Sheets;
-  try
-  {
-    const double further = error - m_Error; // distances add up
-    if (this->AreApart())
-    {
-      SimplifyApart(*m_Surface, m_Sheets, m_Sides.size(), triangles, further, report);
-    }
-    else
-    {
-      SimplifyTriangleSurface(*m_Surface, m_Sheets, { triangles, further }, report);
-    }
-    m_Error = error;
-  }
-  catch (const itk::ExceptionObject & exception)
-  {
-    m_Surface = before;
-    m_Sheets = sheets;
-    m_Refusal = exception.GetDescription();
-  }
-}
-
+/** The numbers of the values of the points of surfaces, one surface after the other. */
 std::vector<std::uint16_t>
-PageMeshMaker::NumberValues() const
+NumberValues(const std::vector<SceneSurface> & surfaces, const ColourScale & scale)
 {
   std::vector<std::uint16_t> numbers;
-  if (!m_Scale)
+  for (const SceneSurface & surface : surfaces)
   {
-    return numbers;
-  }
-  std::vector<std::uint32_t> owners(m_Surface->GetNumberOfPoints(), 0); // surfaces of points, from 1
-  for (std::size_t n = 0; n < m_Sheets.size(); ++n)
-  {
-    for (const std::uint32_t point : m_Surface->GetTriangles()[n])
+    for (std::size_t n = 0; n < surface.surface->GetNumberOfPoints(); ++n)
     {
-      owners[point] = m_Sides[m_Sheets[n]][0];
+      numbers.push_back(surface.pointValues ? NumberOf(scale, surface.pointValues->values[n]) : 0);
     }
-  }
-  numbers.resize(owners.size(), 0);
-  const Surface & simplified = *m_Surface;
-  for (std::uint32_t owner = 1; owner <= m_Valued.size(); ++owner)
-  {
-    const SceneSurface & valued = m_Valued[owner - 1];
-    if (!valued.pointValues)
-    {
-      continue;
-    }
-    const itk::TriangleTree tree(*valued.surface);
-    constexpr std::size_t blockSize = 1024;
-    ForEachInBlocks(owners.size(), blockSize, [&](std::size_t n) {
-      if (owners[n] == owner)
-      {
-        const auto & point = simplified.GetPoints()[n];
-        numbers[n] = NumberOf(*m_Scale, ValueNear(valued, tree, { point[0], point[1], point[2] }));
-      }
-    });
   }
   return numbers;
 }
 
+} // namespace
+
 PageMesh
-PageMeshMaker::Make() const
+MakePageMesh(const std::vector<SceneSurface> & surfaces, const std::optional<ColourScale> & scale)
 {
-  const Surface & surface = *m_Surface;
-  PageMesh mesh;
-  mesh.trianglesBefore = m_Original->GetNumberOfTriangles();
-  mesh.refusal = m_Refusal;
-  mesh.error = m_Error;
-  if (m_Error > 0.0)
+  const JoinedSurfaces joined = scale ? AppendSurfaces(surfaces) : JoinSurfaces(surfaces);
+  std::map<Sides, Corners> sheets;
+  for (std::size_t n = 0; n < joined.sides.size(); ++n)
   {
-    constexpr itk::SizeValueType measured = 30'000; // triangles of either surface
-    mesh.measuredError = ComputeTriangleSurfaceDistances(*m_Original, surface, measured).GetMaximum();
+    const auto & triangle = joined.surface->GetTriangles()[n];
+    Corners & corners = sheets[joined.sides[n]];
+    corners.insert(corners.end(), triangle.begin(), triangle.end());
   }
-  mesh.triangles = surface.GetNumberOfTriangles();
-  PlaceQuanta(surface, mesh);
-  std::vector<std::uint32_t> corners = OrderTriangles(surface, m_Sides, m_Sheets, mesh);
-  Encode(std::move(corners), QuantizePoints(surface, mesh, this->NumberValues()), mesh);
+  PageMesh mesh;
+  mesh.triangles = joined.sides.size();
+  PlaceQuanta(*joined.surface, mesh);
+  const auto values = scale ? NumberValues(surfaces, *scale) : std::vector<std::uint16_t>();
+  Encode(OrderTriangles(sheets, joined.surface->GetNumberOfPoints(), mesh),
+         QuantizePoints(*joined.surface, mesh, values),
+         mesh);
   return mesh;
 }
 

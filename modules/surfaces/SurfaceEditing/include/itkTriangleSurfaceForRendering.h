@@ -30,11 +30,12 @@ OptimizeTriangleSurfaceForRendering(TriangleSurface & surface);
 /** Fewer triangles for a sheet, between some of its points, about as near to it as a distance in mm by which a picture
  * does not change: by quadrics, without a bound on the largest distance (SimplifyTriangleSurface() has one, and takes
  * fifty times as long). Points on the sheet's border stay, so that sheets that end there still meet. The same triangles
- * in the same order give the same result. Time nearly linear. */
+ * in the same order give the same result. Ends at \a least triangles. Time nearly linear. */
 TriangleSurface::TrianglesContainer
 SimplifySheetForRendering(const TriangleSurface::PointsContainer & points,
                           const TriangleSurface::TrianglesContainer & triangles,
-                          double distance);
+                          double distance,
+                          SizeValueType least = 0);
 
 } // namespace itk
 

@@ -166,7 +166,8 @@ OptimizeTriangleSurfaceForRendering(TriangleSurface & surface)
 TriangleSurface::TrianglesContainer
 SimplifySheetForRendering(const TriangleSurface::PointsContainer & points,
                           const TriangleSurface::TrianglesContainer & triangles,
-                          double distance)
+                          double distance,
+                          SizeValueType least)
 {
   if (triangles.empty())
   {
@@ -205,7 +206,7 @@ SimplifySheetForRendering(const TriangleSurface::PointsContainer & points,
                                             coordinates,
                                             places.size(),
                                             bytes,
-                                            0,
+                                            3 * least,
                                             static_cast<float>(distance) / scale,
                                             meshopt_SimplifyLockBorder,
                                             nullptr);

@@ -70,7 +70,8 @@ JoinSurfaces(const std::vector<SceneSurface> & surfaces)
   for (std::size_t n = 0; n < surfaces.size(); ++n)
   {
     const itk::TriangleSurface & surface = *surfaces[n].surface;
-    std::vector<std::uint32_t> numbers;
+    std::vector<std::uint32_t> & numbers = joined.points.emplace_back();
+    numbers.reserve(surface.GetNumberOfPoints());
     for (const auto & point : surface.GetPoints())
     {
       numbers.push_back(welder.Add(point));
