@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,8 @@ class YAMLMistake : public std::runtime_error
   using std::runtime_error::runtime_error;
 };
 
-/** Throws YAMLMistake for a node that is no map, and for a key that \a known does not have, as "has the unknown key
- * 'vew' in line 7 (did you mean view?)". */
+/** Throws YAMLMistake for a node that is no map, for a key that is there twice, and for one that \a known does not
+ * have, as "has the unknown key 'vew' in line 7 (did you mean view?)". */
 inline void
 RefuseOtherKeys(const YAML::Node & map, const std::vector<std::string> & known)
 {
@@ -28,9 +29,15 @@ RefuseOtherKeys(const YAML::Node & map, const std::vector<std::string> & known)
   {
     throw YAMLMistake("is not made of keys and values in line " + std::to_string(map.Mark().line + 1));
   }
+  std::set<std::string> keys;
   for (const auto & entry : map)
   {
     const auto key = entry.first.as<std::string>();
+    if (!keys.insert(key).second)
+    {
+      throw YAMLMistake("has the key '" + key + "' a second time in line " +
+                        std::to_string(entry.first.Mark().line + 1));
+    }
     if (std::find(known.begin(), known.end(), key) == known.end())
     {
       const std::string nearest = NearestName(key, known);

@@ -154,6 +154,8 @@ TEST(Presets, RefuseDamagedFiles)
                              "name: x\nsurfaces: [{name: a, isovalue: 1}]\nrules: [{opacity: 0.5}]",
                              "name: x\nsurfaces: [{name: a, isovalue: 1}]\nrules: [{match: 'group:bone'}]",
                              "name: x\nsurfaces: [{name: a, isovalue: 1}]\nrules: [{match: a, opacity: 2}]",
+                             "name: x\nsurfaces: [{name: a, isovalue: 1, isovalue: 2}]",
+                             "name: x\nsurfaces: [{name: , isovalue: 1}]",
                              "name: x\ndenoise: much\nsurfaces: [{name: a, isovalue: 1}]",
                              "name: [x\n" })
   {

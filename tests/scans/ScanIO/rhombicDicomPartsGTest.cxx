@@ -81,6 +81,44 @@ TEST(DicomHeader, EndlessItemsAreDamage)
   EXPECT_LE(header->dataSet.GetItems(0x52009230).size(), std::size_t{ 1 } << 20);
 }
 
+/** The damage of a file of one little-endian data set of explicit types. */
+std::string
+DamageOf(const std::string & file)
+{
+  std::istringstream stream(file);
+  const auto header = rhombic::ParseDicomHeader(stream, file.size());
+  return header ? header->damage : "no DICOM";
+}
+
+TEST(DicomHeader, ValuesThatReadersWouldTakeDifferentlyAreDamage)
+{
+  const std::string modality("\x08\0\x60\0CS\2\0CT", 10);
+  const std::string pixels("\xe0\x7f\x10\0OW\0\0\2\0\0\0ab", 14);
+  const std::string intercept("\x28\0\x52\x10"
+                              "DS\2\0-9",
+                              10);
+  EXPECT_EQ(DamageOf(modality + intercept + intercept + pixels), "");
+  EXPECT_EQ(DamageOf(modality + intercept + pixels + std::string("\xfc\xff\xfc\xffOB\0\0\0\0\0\0", 12)), "")
+    << "padding";
+  EXPECT_EQ(DamageOf(modality + intercept + pixels + std::string(7, '\0')), "") << "bytes that are no elements";
+  EXPECT_NE(DamageOf(modality + pixels + intercept).find("after the pixels"), std::string::npos);
+  const std::string other("\x28\0\x52\x10"
+                          "DS\2\0-8",
+                          10);
+  EXPECT_NE(DamageOf(modality + intercept + other + pixels).find("twice"), std::string::npos);
+
+  const auto sequence = [](char length, char itemLength) { // of one item with the text of an element
+    return std::string("\x30\0\x30\x92SQ\0\0", 8).replace(0, 2, "\0\x52", 2) + std::string{ length, 0, 0, 0 } +
+           std::string("\xfe\xff\0\xe0", 4) + std::string{ itemLength, 0, 0, 0 } +
+           std::string("\x28\0\x52\x10"
+                       "DS\2\0-9",
+                       10);
+  };
+  EXPECT_EQ(DamageOf(modality + sequence(18, 10) + pixels), "");
+  EXPECT_NE(DamageOf(modality + sequence(16, 10) + pixels).find("longer than the sequence"), std::string::npos);
+  EXPECT_NE(DamageOf(modality + sequence(18, 8) + pixels).find("longer than the item"), std::string::npos);
+}
+
 TEST(DicomHeader, EndlessElementsAreDamage)
 {
   const std::string start = std::string(128, '\0') + "DICM";

@@ -174,6 +174,7 @@ TEST_F(TextVolume, HeadersThatMakeNoSenseAreRefused)
          std::string("NDims = 3\nDimSize = 2 2 3\nElementType = MET_UCHAR\n"),
          std::string("NDims = 3\nDimSize = 2 2 2\nElementType = MET_NONE\n"),
          Meta + "ElementNumberOfChannels = 3\n",
+         Meta + "ElementSpacing = 1 2 3\nElementSpacing = 3 2 1\n",
          Meta + "HeaderSize = -7\n",
          Meta + "CompressedData = True\n",
          Meta + "CompressedData = True\nCompressedDataSize = 5000\n",

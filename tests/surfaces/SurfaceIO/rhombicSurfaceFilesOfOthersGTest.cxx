@@ -305,6 +305,10 @@ TEST_F(SurfaceFilesOfOthers, GLBThatIsDamagedOrNotSupported)
     file.indexType = "5126";
     file.indexCount = "2";
   });
+  expectRefused("does not exist", [](auto & file) {
+    file.indexType = "0";
+    file.indexCount = "2";
+  });
   expectRefused("itself", [](auto & file) { file.nodes = R"([{"mesh":0,"children":[0]}])"; });
   expectRefused("JSON", [](auto & file) { file.nodes = R"([{"mesh":7}])"; });
   expectRefused("JSON", [](auto & file) { file.nodes = R"([{"mesh":0,)"; });
@@ -340,6 +344,16 @@ TEST_F(SurfaceFilesOfOthers, DamagedFilesGetASentence)
     }
   }
   EXPECT_EQ(KindOf([&] { ReadSurfaces(m_Folder / "file.xyz"); }, ".glb"), Kind::Usage);
+}
+
+TEST_F(SurfaceFilesOfOthers, TextPLYWithMoreNumbersThanPropertiesIsRefused)
+{
+  using Kind = rhombic::FailureKind;
+  const std::string head =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 1\nproperty list uchar int vertex_index\nend_header\n";
+  EXPECT_EQ(this->Refused("a.ply", head + "0 0 0\n1 0 0 7\n0 1 0\n3 0 1 2\n", "more numbers"), Kind::Unreadable);
+  EXPECT_EQ(this->Refused("b.ply", head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 2\n", "more numbers"), Kind::Unreadable);
 }
 
 TEST_F(SurfaceFilesOfOthers, IndicesOutOfRangeAreRefused)

@@ -149,6 +149,10 @@ public:
         {
           header.fragments = this->ReadFragments(encoding);
         }
+        else
+        {
+          this->RefuseValuesAfter(element, encoding);
+        }
         return;
       }
       this->ReadValue(element, encoding, 0, header.dataSet);
@@ -293,6 +297,30 @@ private:
     return bytes;
   }
 
+  /** Throws Damage for values after native pixels, where none is looked for; signatures and padding may be there. */
+  void
+  RefuseValuesAfter(const Element & pixels, const Encoding & encoding)
+  {
+    DicomTag found = 0;
+    try
+    {
+      for (this->MoveTo(this->EndOf(pixels)); m_Position < m_Size && found == 0;)
+      {
+        const Element element = this->ReadElement(encoding);
+        found = m_Wanted.count(element.tag) + WantedSequences.count(element.tag) > 0 ? element.tag : 0;
+        this->MoveTo(this->EndOf(element));
+      }
+    }
+    catch (const Damage &)
+    {
+      return; // no elements, or pixels that are cut off, which is said elsewhere
+    }
+    if (found != 0)
+    {
+      throw Damage{ "its element " + NameOf(found) + " comes after the pixels, where it does not belong" };
+    }
+  }
+
   void
   ReadValue(const Element & element, const Encoding & encoding, int depth, DicomDataSet & dataSet)
   {
@@ -305,7 +333,11 @@ private:
     }
     else if (m_Wanted.count(element.tag) != 0)
     {
-      dataSet.values[element.tag] = this->ReadBytes(element, LongestValue);
+      const std::string value = this->ReadBytes(element, LongestValue);
+      if (dataSet.values.emplace(element.tag, value).first->second != value)
+      {
+        throw Damage{ "its element " + NameOf(element.tag) + " is there twice, with other values" };
+      }
     }
     else
     {
@@ -349,6 +381,10 @@ private:
         }
         dataSet.sequences[sequence.tag].push_back(std::move(content));
       }
+      if (hasLength && m_Position > end)
+      {
+        throw Damage{ "an item of its sequence " + NameOf(sequence.tag) + " is longer than the sequence" };
+      }
     }
     if (!hasLength)
     {
@@ -371,6 +407,10 @@ private:
         return;
       }
       this->ReadValue(element, encoding, depth, dataSet);
+      if (hasLength && m_Position > end)
+      {
+        throw Damage{ "its element " + NameOf(element.tag) + " is longer than the item around it" };
+      }
     }
     if (!hasLength)
     {

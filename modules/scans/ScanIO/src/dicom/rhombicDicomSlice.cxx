@@ -163,9 +163,13 @@ HasScaling(const DicomDataSet & dataSet)
 void
 ReadScaling(const DicomDataSet & dataSet, DicomSlice & slice)
 {
-  const auto read = [&dataSet](DicomTag tag, double absent) {
+  const bool isGiven =
+    !dataSet.GetText(DicomTags::RescaleSlope).empty() || !dataSet.GetText(DicomTags::RescaleIntercept).empty();
+  const auto read = [&dataSet, isGiven](DicomTag tag, double absent) {
     const auto numbers = dataSet.GetDecimals(tag);
-    return dataSet.GetText(tag).empty() ? absent : numbers.size() == 1 ? numbers[0] : std::nan("");
+    const bool isAbsent =
+      dataSet.GetText(tag).empty() && !(isGiven && dataSet.Has(tag)); // an empty one beside the other is not
+    return isAbsent ? absent : numbers.size() == 1 ? numbers[0] : std::nan("");
   };
   slice.slope = read(DicomTags::RescaleSlope, 1);
   slice.intercept = read(DicomTags::RescaleIntercept, 0);

@@ -38,7 +38,12 @@ ReadHeader(const fs::path & path)
     const std::size_t equals = line.find('=');
     if (equals != std::string::npos)
     {
-      header.fields[std::string(Trim(line.substr(0, equals)))] = Trim(line.substr(equals + 1));
+      const std::string name(Trim(line.substr(0, equals)));
+      const std::string value(Trim(line.substr(equals + 1)));
+      RefuseVolumeIf(header.fields.emplace(name, value).first->second != value,
+                     path,
+                     "its header has the field '" + name +
+                       "' twice, with other values; export it again from its source");
     }
   }
   RefuseVolumeIf(header.Get("ElementDataFile").empty(),

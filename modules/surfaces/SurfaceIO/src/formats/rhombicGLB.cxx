@@ -614,6 +614,10 @@ private:
     Accessor accessor;
     accessor.count = this->Whole(json, "count");
     accessor.componentType = this->Whole(json, "componentType");
+    if (accessor.componentType == 0) // which stands for points in their order
+    {
+      m_File.RefuseDamaged("an accessor has a type of numbers that does not exist");
+    }
     accessor.componentSize = accessor.componentType == glb::UnsignedByte    ? 1
                              : accessor.componentType == glb::UnsignedShort ? 2
                                                                             : 4;

@@ -291,6 +291,16 @@ public:
     }
   }
 
+  /** Refuses the rest of a text file's line, as its numbers may be those of other properties. */
+  void
+  EndElement()
+  {
+    if (!Trim(m_Line).empty())
+    {
+      m_Stream.RefuseLine("a line has more numbers than its element has properties; export the file again");
+    }
+  }
+
   double
   Take(const NumberType & type)
   {
@@ -610,6 +620,7 @@ ReadVertices(const Element & vertex, Values & values, SurfaceAssembler & assembl
         SkipProperty(property, values);
       }
     }
+    values.EndElement();
     const auto triple = [&slots](std::size_t first) {
       return itk::TriangleSurface::PointType{ static_cast<float>(slots[first]),
                                               static_cast<float>(slots[first + 1]),
@@ -647,6 +658,7 @@ ReadElements(const Element & element, Values & values, SurfaceAssembler * assemb
       }
       assembler->AddFace(corners);
     }
+    values.EndElement();
   }
 }
 
