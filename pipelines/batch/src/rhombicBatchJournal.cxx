@@ -113,9 +113,13 @@ BatchJournal::Add(const Report & line)
   {
     text.insert(0, 1, '\n'); // ends the line that a killed process has left
   }
-  const bool isWritten = isLocked &&
-                         write(m_Descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
-                         fsync(m_Descriptor) == 0;
+  const ssize_t written = isLocked ? write(m_Descriptor, text.data(), text.size()) : -1;
+  const bool isWhole = written == static_cast<ssize_t>(text.size());
+  if (written >= 0 && !isWhole)
+  {
+    errno = ENOSPC; // a full disk takes a part of the line without an error
+  }
+  const bool isWritten = isWhole && fsync(m_Descriptor) == 0;
   if (!isWritten)
   {
     throw CannotWrite(m_Path);

@@ -209,7 +209,14 @@ CaseRun::StartStep()
   {
     settings["thumbnail"] = (m_Stage / ThumbnailFile).string();
   }
-  std::ofstream(m_Stage / requestFile) << request.dump();
+  std::ofstream file(m_Stage / requestFile);
+  file << request.dump() << std::flush;
+  if (!file)
+  {
+    throw Failure(FailureKind::Output,
+                  "Cannot write to " + m_Stage.string() +
+                    "; see to the disk, and run the batch again: finished cases are kept.");
+  }
   m_ChildStart = Clock::now();
   ChildSettings child;
   child.arguments = { m_Settings.program.string(), m_Settings.requestOption };
