@@ -40,7 +40,10 @@ MapFile(int descriptor, int protection)
 {
   struct stat status
   {};
-  fstat(descriptor, &status);
+  if (fstat(descriptor, &status) != 0)
+  {
+    throw std::bad_alloc();
+  }
   const auto size = static_cast<std::size_t>(status.st_size);
   void * const address = size > 0 ? mmap(nullptr, size, protection, MAP_SHARED, descriptor, 0) : nullptr;
   if (address == MAP_FAILED)
