@@ -32,7 +32,7 @@ install(FILES "${PROJECT_BINARY_DIR}/RhombicConfig.cmake" "${PROJECT_BINARY_DIR}
 install(TARGETS rhombic RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT program)
 install(TARGETS rhombic-on-demand rhombic-pictures LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/rhombic" COMPONENT program)
 install(DIRECTORY pipelines/presets DESTINATION "${CMAKE_INSTALL_DATADIR}/rhombic" COMPONENT program)
-install(PROGRAMS pipelines/batch/job-array.sh pipelines/batch/receive-study.sh
+install(PROGRAMS pipelines/batch/job-array.sh pipelines/batch/shard-array.sh pipelines/batch/receive-study.sh
         DESTINATION "${CMAKE_INSTALL_DATADIR}/rhombic/batch" COMPONENT program)
 install(FILES pipelines/batch/Snakefile DESTINATION "${CMAKE_INSTALL_DATADIR}/rhombic/batch" COMPONENT program)
 install(DIRECTORY pipelines/batch/slurm-7 pipelines/batch/slurm-8 DESTINATION "${CMAKE_INSTALL_DATADIR}/rhombic/batch"

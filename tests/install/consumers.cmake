@@ -24,7 +24,7 @@ endfunction()
 # Looks for the files for clusters below `prefix`: the scripts must be programs.
 function(check_cluster_files prefix)
   set(folder "${prefix}/share/rhombic/batch")
-  foreach(file Snakefile slurm-7/config.yaml slurm-8/config.yaml job-array.sh receive-study.sh)
+  foreach(file Snakefile slurm-7/config.yaml slurm-8/config.yaml job-array.sh shard-array.sh receive-study.sh)
     if(NOT EXISTS "${folder}/${file}")
       message(FATAL_ERROR "There is no ${folder}/${file}")
     endif()

@@ -393,6 +393,7 @@ ReadManifest(const fs::path & manifest)
   std::istringstream stream(ReadTextFile(manifest, "manifest"));
   CaseCollection found;
   std::vector<std::string> columns;
+  std::set<std::string> names;
   std::string text;
   for (std::size_t line = 1; std::getline(stream, text); ++line)
   {
@@ -425,8 +426,7 @@ ReadManifest(const fs::path & manifest)
       FailInManifest(
         manifest, line, "'" + batchCase.name + "' is no name of a case: letters, digits, . _ and - are allowed");
     }
-    const auto isSame = [&batchCase](const BatchCase & other) { return other.name == batchCase.name; };
-    if (std::any_of(found.cases.begin(), found.cases.end(), isSame))
+    if (!names.insert(batchCase.name).second)
     {
       FailInManifest(manifest, line, "there is a case " + batchCase.name + " before");
     }
