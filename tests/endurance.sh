@@ -17,6 +17,7 @@ for file in tests/fuzz/*Fuzz.cxx; do
   name=${file##*/rhombic}
   steps+=("fuzz-${name%Fuzz.cxx}")
 done
+steps+=(malformed chaos faults)
 steps+=(asan tsan)
 
 seconds=1800
@@ -118,6 +119,16 @@ fuzz() { # STEP
      -malloc_limit_mb=512 -print_final_stats=1 -artifact_prefix="$folder/$name-" "${inputs[@]}" && exit $status) || status=1
 }
 
+tail_of() { # what prints its counts at the end
+  tail -n 1 "$1"
+}
+
+malformed() { # 14 kinds of files, 100,000 mutants; those of VTP, which VTK reads in child processes, are fewer
+  ./pipelines/build.sh dev rhombicFuzzSeeds rhombicReadMutants
+  build/dev/bin/rhombicFuzzSeeds "$folder/seeds"
+  part malformed 100000 tail_of tests/fuzz/malformed.py -n 107000 -p 5000 -k "$folder/malformed" build/dev/bin "$folder/seeds"
+}
+
 sanitizer() { # PRESET: CTest's tests, those of each prefix by themselves
   local prefix
   ./pipelines/build.sh "$1"
@@ -139,6 +150,9 @@ for step in "${steps[@]}"; do
     zone) environment zone TZ=Pacific/Kiritimati ;;
     blanks | lines | home | user) environment "$step" ;;
     fuzz-*) fuzz "$step" ;;
+    malformed) malformed ;;
+    chaos) part chaos 300-cases tail_of tests/faults/chaos.py build/dev/bin/rhombic -c 300 -r 3 ;;
+    faults) part faults all tail_of tests/faults/inject-faults.py build/dev/bin/rhombic testdata/phantom 12 ;;
     *) sanitizer "$step" ;;
   esac
 done

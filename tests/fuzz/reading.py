@@ -22,7 +22,7 @@ def single(number):
 
 
 def is_near(a, b, size=0.0):
-    return a == b or (math.isnan(a) and math.isnan(b)) or math.isclose(a, b, rel_tol=2e-6, abs_tol=max(1e-12, 1e-9 * size))
+    return a == b or not (math.isfinite(a) or math.isfinite(b)) or math.isclose(a, b, rel_tol=2e-6, abs_tol=max(1e-12, 1e-9 * size))
 
 
 def compare(numbers, expected, what, size=0.0):
