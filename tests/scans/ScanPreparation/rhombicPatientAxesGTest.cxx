@@ -37,6 +37,34 @@ MakeDirection(std::mt19937 & random)
   return turn->GetMatrix() * axes;
 }
 
+/** Expects the ordered scan also where no copy fits into memory, slice by slice in a temporary file. */
+void
+ExpectSameWithoutMemory(const rhombic::Scan & scan, const ImageType & ordered)
+{
+  try
+  {
+    const auto large = std::get<ImageType::Pointer>(rhombic::OrderAlongPatient(scan, 1).image);
+    ASSERT_EQ(large->GetBufferedRegion(), ordered.GetBufferedRegion());
+    EXPECT_EQ(large->GetDirection(), ordered.GetDirection());
+    EXPECT_EQ(large->GetOrigin(), ordered.GetOrigin());
+    EXPECT_EQ(large->GetSpacing(), ordered.GetSpacing());
+    const float * const values = ordered.GetBufferPointer();
+    EXPECT_TRUE(
+      std::equal(values, values + ordered.GetBufferedRegion().GetNumberOfPixels(), large->GetBufferPointer()));
+  }
+  catch (const rhombic::Failure & failure)
+  {
+    EXPECT_NE(std::string(failure.GetDescription()).find("it is in memory itself"), std::string::npos);
+  }
+  rhombic::Scan frame = scan;
+  const auto noVoxels = ImageType::New();
+  noVoxels->CopyInformation(std::get<ImageType::Pointer>(scan.image));
+  frame.image = noVoxels;
+  const auto planned = std::get<ImageType::Pointer>(rhombic::OrderAlongPatient(frame, 1).image);
+  EXPECT_EQ(planned->GetLargestPossibleRegion(), ordered.GetLargestPossibleRegion());
+  EXPECT_EQ(planned->GetDirection(), ordered.GetDirection());
+}
+
 TEST(PatientAxes, OrderedAxesRunAlongThePatientAndSamplesStay)
 {
   std::mt19937 random(7);
@@ -58,11 +86,11 @@ TEST(PatientAxes, OrderedAxesRunAlongThePatientAndSamplesStay)
     }
     rhombic::Scan scan;
     scan.image = image;
-    if (trial == 0)
-    {
-      EXPECT_THROW(rhombic::OrderAlongPatient(scan, 1), rhombic::Failure) << "its copies need more than a byte";
-    }
     const auto ordered = std::get<ImageType::Pointer>(rhombic::OrderAlongPatient(scan).image);
+    if (trial < 50)
+    {
+      ExpectSameWithoutMemory(scan, *ordered);
+    }
     ASSERT_EQ(ordered->GetBufferedRegion().GetNumberOfPixels(), image->GetBufferedRegion().GetNumberOfPixels());
     for (itk::ImageRegionConstIteratorWithIndex<ImageType> it(ordered, ordered->GetBufferedRegion()); !it.IsAtEnd();
          ++it)

@@ -3,17 +3,46 @@
 
 #include "rhombicScan.h"
 
+#include <filesystem>
+
 namespace rhombic
 {
 
-/** Whether the voxels of a scan are pages of its file, which the system reads when they are used and drops when memory
+/** Where the voxels of a scan are. */
+enum class VoxelPlace
+{
+  Memory,
+  File,         ///< mapped: their file
+  TemporaryFile ///< mapped: a temporary file without a name
+};
+
+/** Whether the voxels of a scan are pages of a file, which the system reads when they are used and drops when memory
  * is short, so that they take none of the memory that work may have. ReadVoxels() maps a file when its voxels would
  * take more than half of ScanReadOptions::maximumMemory and can be used as the file holds them: raw, not scaled, in
  * this machine's byte order, at a multiple of their size, and of a type that ScanImage has. Changed voxels are copies
- * in memory; the file stays as it is. Voxels of OME-Zarr that exceed ScanReadOptions::maximumMemory are
- * unpacked to a temporary file, and its pages are used. */
+ * in memory; the file stays as it is. Other voxels that exceed ScanReadOptions::maximumMemory are put into a temporary
+ * file while they are read, and its pages are used; those of a compressed stream are refused. */
 bool
 IsMapped(const ScanImage & image);
+
+VoxelPlace
+PlaceOf(const ScanImage & image);
+
+/** Throws Failure(Memory), naming \a scan, when the folder of temporary files, which TMPDIR names, else /tmp, has no
+ * room for \a size bytes, or is in memory itself. */
+void
+RequireRoomForTemporaryFile(std::uintmax_t size, const std::filesystem::path & scan);
+
+/** Allocates the pixels of the largest possible region in a temporary file without a name. It goes away with the image.
+ * Pixels are 0. Throws Failure(Memory), naming \a scan, when there is no room. */
+void
+AllocateInTemporaryFile(const ScanImage & image, const std::filesystem::path & scan);
+
+/** Has the system drop those pages of a mapped image that are in memory, before it has to: for work that goes on
+ * elsewhere in the image, so that they do not count as memory of the process or of its control group. Changed voxels
+ * are kept. Without effect on other images. Thread safe. */
+void
+DropPages(const ScanImage & image);
 
 } // namespace rhombic
 

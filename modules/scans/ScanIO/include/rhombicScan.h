@@ -106,7 +106,7 @@ struct Scan
   /** Names and colours of a label map's values, where its file has them; empty for other scans. */
   LabelTable labels;
 
-  std::string format;     ///< "DICOM", "NIfTI", "NRRD", "MetaImage", "OME-Zarr" or "raw"
+  std::string format;     ///< "DICOM", "NIfTI", "NRRD", "MetaImage", "OME-Zarr", "pictures" or "raw"
   bool isOriented = true; ///< false when the file has no orientation in the patient: left and right are a guess
   std::string modality;   ///< DICOM's: CT (values are HU), MR, ...; empty when unknown
   std::string encoding;   ///< transfer syntax or compression of the voxels, in words

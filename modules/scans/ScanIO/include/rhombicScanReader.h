@@ -1,7 +1,7 @@
 #ifndef rhombicScanReader_h
 #define rhombicScanReader_h
 
-#include "rhombicScan.h"
+#include "rhombicMappedVoxels.h"
 
 #include "itkImageRegion.h"
 
@@ -59,8 +59,8 @@ struct ScanReadOptions
   /** The level of the pyramid of an OME-Zarr image, from 0, the finest. Other formats have level 0 only. */
   std::size_t level = 0;
 
-  /** The size of a voxel along x, y and z in mm, for files of bare voxels, and OME-Zarr images that do not tell
-   * it; an error for others. */
+  /** The size of a voxel along x, y and z in mm, for files of bare voxels, pictures, and OME-Zarr images that do not
+   * tell it; an error for others. */
   std::optional<std::array<double, 3>> voxelSize;
 
   /** For a file of bare voxels, whatever its name; needs the \a voxelSize. Nothing, the default, for other files. */
@@ -103,13 +103,19 @@ struct UnreadScan
 
   std::function<void(Scan & scan)> readVoxels; ///< completes a copy of \a scan, any number of times
 
+  /** Where \a readVoxels will put the voxels; empty where it is memory, if they fit. Throws Failure(Memory) as that
+   * does.
+   */
+  std::function<VoxelPlace()> findPlace{};
+
   bool isTypeCertain = true; ///< whether the headers tell that the voxels fit into the pixel type of \a scan
 
   std::optional<NativeVoxels> native = std::nullopt; ///< of formats other than DICOM, of one volume
 };
 
 /** Opens a scan or label map: a folder of DICOM slices, searched with its subfolders; a DICOM file that holds a volume
- * (enhanced multi-frame, or a segmentation); a folder of OME-Zarr 0.4 (OMEZarrImage); a file of bare voxels
+ * (enhanced multi-frame, or a segmentation); a folder of OME-Zarr 0.4 (OMEZarrImage); a folder of grey pictures of one
+ * size (TIFF, PNG, JPEG 2000, BMP), which are slices in the order of the numbers in their names; a file of bare voxels
  * (ScanReadOptions::raw); or a NIfTI-1 or -2 (.nii, .hdr with .img, either with .gz), NRRD (.nrrd, .nhdr) or MetaImage
  * (.mha, .mhd) file. A folder of such files without any DICOM file holds masks, and label maps if need be, of one grid:
  * they are read as one label map. A label keeps its value, from 1 to 65,535, if no label before it has the same;
@@ -128,8 +134,8 @@ struct UnreadScan
  * oriented.
  *
  * Every length in a header is checked against the file's size, and the memory for the voxels against the limit before
- * it is allocated. What only a library can unpack is unpacked in child processes with limits (SandboxRun), so that
- * damaged files can't end the process.
+ * it is allocated: those that exceed it are mapped (see IsMapped()). What only a library can unpack is unpacked in
+ * child processes with limits (SandboxRun), so that damaged files can't end the process.
  *
  * Throws Failure: NotFound (no such path, or no scan in the folder), Usage (no such series or frame, or more than one
  * to choose from), Unreadable (damaged, or colour, vectors, no image...), Geometry, Memory.

@@ -49,6 +49,19 @@ ListDicomSeries(const std::filesystem::path & path, bool isFolder, const ScanRea
 std::vector<std::filesystem::path>
 FindMasks(const std::filesystem::path & folder, bool followsLinks);
 
+/** The pictures (TIFF, PNG, JPEG 2000, BMP) in a folder that holds any, and no DICOM files, in the order of the numbers
+ * in their names; without hidden files, and without symbolic links unless \a followsLinks. Empty for other folders. */
+std::vector<std::filesystem::path>
+FindPictures(const std::filesystem::path & folder, bool followsLinks);
+
+/** Opens grey pictures of one size and type as the slices of a volume, with ScanReadOptions::voxelSize. Their values
+ * are unpacked by child processes. Throws Failure as OpenScan() does: Unreadable, naming both files, for pictures that
+ * differ. */
+UnreadScan
+OpenPictureStack(const std::vector<std::filesystem::path> & pictures,
+                 const std::filesystem::path & folder,
+                 const ScanReadOptions & options);
+
 /** Opens masks and label maps of one grid as one label map (see LabelUnion). They are read one after the other; labels
  * of masks without a name are called as their files. Masks without any voxel are noted. Throws Failure as OpenScan()
  * does, and: Geometry, naming both files, for voxels in other places than those of the first; Unreadable for files

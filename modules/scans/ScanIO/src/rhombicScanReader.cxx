@@ -40,6 +40,15 @@ RequireNoSeries(const fs::path & path, const ScanReadOptions & options)
          "Cannot choose a series of " + path.string() + ": only folders of DICOM files have series; leave it out.");
 }
 
+void
+RequireNoLevel(const fs::path & path, const ScanReadOptions & options)
+{
+  FailIf(options.level > 0,
+         FailureKind::Usage,
+         "Cannot read level " + std::to_string(options.level) + " of " + path.string() +
+           ": only OME-Zarr folders have levels; leave out ScanReadOptions::level.");
+}
+
 /** Throws Failure(Usage) for choices that the format of an input does not have. */
 void
 RequireNoFurtherChoices(const fs::path & path, bool isFolder, const ScanReadOptions & options)
@@ -48,14 +57,11 @@ RequireNoFurtherChoices(const fs::path & path, bool isFolder, const ScanReadOpti
          FailureKind::Usage,
          "Cannot read " + path.string() +
            " as a file of bare voxels: it is a folder; leave out ScanReadOptions::raw, or name the file.");
-  FailIf(options.level > 0,
-         FailureKind::Usage,
-         "Cannot read level " + std::to_string(options.level) + " of " + path.string() +
-           ": only OME-Zarr folders have levels; leave out ScanReadOptions::level.");
+  RequireNoLevel(path, options);
   FailIf(options.voxelSize && !options.raw,
          FailureKind::Usage,
          "The size of the voxels of " + path.string() +
-           " can't be given, as only files of bare voxels and OME-Zarr folders may lack it; leave out "
+           " can't be given, as only files of bare voxels, pictures and OME-Zarr folders may lack it; leave out "
            "ScanReadOptions::voxelSize.");
 }
 
@@ -68,10 +74,20 @@ Open(const fs::path & path, const ScanReadOptions & options)
     RequireNoSeries(path, options);
     return OpenOMEZarr(path, options);
   }
+  const std::vector<fs::path> masks =
+    isFolder && !options.raw ? FindMasks(path, options.followsLinks) : std::vector<fs::path>();
+  if (isFolder && !options.raw && masks.empty())
+  {
+    if (const std::vector<fs::path> pictures = FindPictures(path, options.followsLinks); !pictures.empty())
+    {
+      RequireNoSeries(path, options);
+      RequireNoLevel(path, options);
+      return OpenPictureStack(pictures, path, options);
+    }
+  }
   RequireNoFurtherChoices(path, isFolder, options);
   if (isFolder)
   {
-    const std::vector<fs::path> masks = FindMasks(path, options.followsLinks);
     return masks.empty() ? OpenDicomFolder(path, options) : OpenLabelFiles(masks, options);
   }
   if (VolumeFormatOf(path).empty() && !options.raw)
@@ -146,7 +162,8 @@ ListSeries(const fs::path & path, const ScanReadOptions & options)
 {
   return ReadOrFail(path, [&path, &options] {
     const bool isFolder = IsFolder(path);
-    const bool hasSeries = isFolder ? !IsZarr(path) && FindMasks(path, options.followsLinks).empty()
+    const bool hasSeries = isFolder ? !IsZarr(path) && FindMasks(path, options.followsLinks).empty() &&
+                                        FindPictures(path, options.followsLinks).empty()
                                     : VolumeFormatOf(path).empty() && !options.raw;
     return hasSeries ? ListDicomSeries(path, isFolder, options) : SeriesList();
   });

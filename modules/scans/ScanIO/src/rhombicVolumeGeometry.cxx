@@ -40,6 +40,20 @@ MakeGeometry(const itk::Size<3> & size, const itk::Point<double, 3> & origin, co
   return geometry;
 }
 
+VolumeGeometry
+MakeUnplacedGeometry(const itk::Size<3> & size, const std::array<double, 3> & voxelSize)
+{
+  itk::Vector<double, 3> steps[3];
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    steps[axis].Fill(0);
+    steps[axis][axis] = voxelSize[axis];
+  }
+  itk::Point<double, 3> origin;
+  origin.Fill(0);
+  return MakeGeometry(size, origin, steps);
+}
+
 void
 CheckGeometry(const VolumeGeometry & geometry,
               const std::filesystem::path & path,

@@ -1,11 +1,13 @@
 #ifndef rhombicVolumeGeometry_h
 #define rhombicVolumeGeometry_h
 
+#include "rhombicMappedVoxels.h"
 #include "rhombicScanReader.h"
 
 #include "itkRecyclingMemory.h"
 #include "itkImage.h"
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -31,6 +33,11 @@ struct VolumeGeometry
 /** The geometry of a volume whose voxel (i, j, k) is at origin + i step_0 + j step_1 + k step_2. */
 VolumeGeometry
 MakeGeometry(const itk::Size<3> & size, const itk::Point<double, 3> & origin, const itk::Vector<double, 3> steps[3]);
+
+/** The geometry of voxels of which only the size is known: their axes are taken for left, posterior and superior.
+ * \param voxelSize in mm */
+VolumeGeometry
+MakeUnplacedGeometry(const itk::Size<3> & size, const std::array<double, 3> & voxelSize);
 
 /** Throws Failure(Geometry) unless all numbers are finite, the spacings are from 1e-9 to 1e9 mm and the axes are
  * linearly independent. Axes whose cosine is more than 1e-3 are refused with Policy::Refuse, and otherwise added to \a
@@ -59,12 +66,19 @@ NewFrame(const VolumeGeometry & geometry)
   return image;
 }
 
-/** An allocated image of this geometry, without initial values. */
+/** An allocated image of this geometry, without initial values.
+ * \param largeScan the path of a scan that does not fit into memory: its pixels are put into a temporary file (see
+ * AllocateInTemporaryFile()); empty for others */
 template <typename TPixel>
 typename itk::Image<TPixel, 3>::Pointer
-NewImage(const VolumeGeometry & geometry)
+NewImage(const VolumeGeometry & geometry, const std::filesystem::path & largeScan = {})
 {
   auto image = NewFrame<TPixel>(geometry);
+  if (!largeScan.empty())
+  {
+    AllocateInTemporaryFile(image, largeScan);
+    return image;
+  }
   image->SetRegions(geometry.size);
   image->Allocate();
   itk::AdviseHugePages(image->GetBufferPointer(), image->GetPixelContainer()->Size() * sizeof(TPixel));

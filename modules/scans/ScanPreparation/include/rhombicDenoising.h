@@ -5,6 +5,8 @@
 #include "rhombicFCCImageFile.h"
 #include "rhombicScan.h"
 
+#include "itkProcessObject.h"
+
 #include <cstdint>
 
 namespace rhombic
@@ -43,6 +45,11 @@ CheckDenoising(const Denoising & denoising);
  * \param maximumMemory in bytes; 0: half of the free memory */
 ScanImage
 DenoiseScan(const ScanImage & image, const Denoising & denoising, std::uintmax_t maximumMemory, const Events & events);
+
+/** A lattice volume smoothed by Gaussian, of which nothing is made yet: \a filter makes it, in parts if it is asked for
+ * them, and must be kept with the volume's own source. Throws Failure(Usage) for parameters out of range. */
+FCCVolume
+ConnectDenoising(const FCCVolume & volume, const Denoising & denoising, itk::ProcessObject::Pointer & filter);
 
 /** Applies Gaussian to a lattice volume, and keeps its pixel type; returns the volume itself for None. Needs memory for
  * one more volume.

@@ -11,8 +11,9 @@ namespace rhombic
 /** The scan with its axes in the order of the patient's: the first runs nearest to right-left, the second to
  * anterior-posterior, the third to inferior-superior, each towards +LPS. Samples keep their positions, so that the same
  * volume gives the same lattice whatever the order of its axes in the file. The voxels are copied only if axes change.
- * Slanted scans keep the order of their slices. Throws Failure(Memory), before any work, when the copies do not fit.
- * \param maximumMemory bytes for the copies; 0: half of the free memory */
+ * Slanted scans keep the order of their slices. Of a scan without voxels only the geometry changes. Copies that do not
+ * fit are made in a temporary file (AllocateInTemporaryFile()). Throws Failure(Memory), before any work, when there is
+ * no room for it. \param maximumMemory bytes for the copies; 0: half of the free memory */
 Scan
 OrderAlongPatient(const Scan & scan, std::uintmax_t maximumMemory = 0);
 

@@ -171,6 +171,31 @@ DenoiseScan(const ScanImage & image, const Denoising & denoising, std::uintmax_t
 }
 
 FCCVolume
+ConnectDenoising(const FCCVolume & volume, const Denoising & denoising, itk::ProcessObject::Pointer & filter)
+{
+  CheckDenoising(denoising);
+  return std::visit(
+    [&](const auto & input) -> FCCVolume {
+      using ImageType = typename std::decay_t<decltype(*input)>;
+      const auto gaussian = itk::FCCGaussianImageFilter<ImageType>::New();
+      gaussian->SetInput(input);
+      gaussian->SetSigma(denoising.sigma);
+      filter = gaussian;
+      try
+      {
+        gaussian->UpdateOutputInformation();
+      }
+      catch (const itk::ExceptionObject & error)
+      {
+        throw Failure(FailureKind::Usage, DescribeError(error) + " (Denoising::sigma).");
+      }
+      const typename ImageType::Pointer output = gaussian->GetOutput();
+      return output;
+    },
+    volume);
+}
+
+FCCVolume
 DenoiseLattice(const FCCVolume & volume,
                const Denoising & denoising,
                std::uintmax_t maximumMemory,
@@ -194,20 +219,10 @@ DenoiseLattice(const FCCVolume & volume,
                     maximumMemory,
                     "Smoothing",
                     "leave out Denoising");
-      const auto filter = itk::FCCGaussianImageFilter<ImageType>::New();
-      filter->SetInput(input);
-      filter->SetSigma(denoising.sigma);
+      itk::ProcessObject::Pointer filter;
+      const auto output = std::get<typename ImageType::Pointer>(ConnectDenoising(input, denoising, filter));
       ObserveProgress(*filter, "smoothing", events);
-      try
-      {
-        filter->UpdateOutputInformation();
-      }
-      catch (const itk::ExceptionObject & error)
-      {
-        throw Failure(FailureKind::Usage, DescribeError(error) + " (Denoising::sigma).");
-      }
-      filter->Update();
-      const typename ImageType::Pointer output = filter->GetOutput();
+      output->Update();
       output->DisconnectPipeline();
       return output;
     },

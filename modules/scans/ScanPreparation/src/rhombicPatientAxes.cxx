@@ -1,5 +1,6 @@
 #include "rhombicPatientAxes.h"
 
+#include "rhombicMappedVoxels.h"
 #include "rhombicMemoryBudget.h"
 
 #include "itkFlipImageFilter.h"
@@ -40,48 +41,112 @@ FindOrder(const Direction & direction)
   return Order(best.data());
 }
 
-template <typename TFilter, typename TImage>
-typename TImage::Pointer
-Apply(TFilter & filter, const TImage & image)
+/** What makes an image of other axes of an image. */
+template <typename TImage>
+struct AxisFilters
 {
-  filter.SetInput(&image);
-  filter.Update();
-  typename TImage::Pointer output = filter.GetOutput();
-  output->DisconnectPipeline();
-  return output;
+  typename itk::PermuteAxesImageFilter<TImage>::Pointer permute; ///< null if none is needed
+  typename itk::FlipImageFilter<TImage>::Pointer flip;           ///< behind it; null if none is needed
+  typename TImage::Pointer output;                               ///< the image itself, if none is needed
+
+  explicit AxisFilters(TImage & image)
+    : output(&image)
+  {
+    const Order order = FindOrder(image.GetDirection());
+    itk::FixedArray<bool, 3> isReversed;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      isReversed[axis] = image.GetDirection()[axis][order[axis]] < 0.0;
+    }
+    if (order[0] != 0 || order[1] != 1)
+    {
+      permute = itk::PermuteAxesImageFilter<TImage>::New();
+      permute->SetOrder(order);
+      permute->SetInput(output);
+      permute->ReleaseDataFlagOn();
+      output = permute->GetOutput();
+    }
+    if (isReversed[0] || isReversed[1] || isReversed[2])
+    {
+      flip = itk::FlipImageFilter<TImage>::New();
+      flip->SetFlipAxes(isReversed);
+      flip->FlipAboutOriginOff();
+      flip->SetInput(output);
+      output = flip->GetOutput();
+    }
+    output->UpdateOutputInformation();
+  }
+
+  /** How many images there are at a time, besides the input. */
+  std::uintmax_t
+  CountCopies() const
+  {
+    return (permute ? 1 : 0) + (flip ? 1 : 0);
+  }
+};
+
+/** An image without pixels in another one's place. */
+template <typename TImage>
+typename TImage::Pointer
+NewFrameOf(const TImage & image)
+{
+  const auto frame = TImage::New();
+  frame->CopyInformation(&image);
+  return frame;
+}
+
+/** Makes the output of \a filters in a temporary file, as many slices at a time as fit into \a allowed bytes. */
+template <typename TImage>
+typename TImage::Pointer
+OrderInTemporaryFile(const AxisFilters<TImage> & filters, const ScanImage & input, std::uintmax_t allowed)
+{
+  const typename TImage::Pointer ordered = NewFrameOf(*filters.output);
+  AllocateInTemporaryFile(ScanImage(ordered), "the scan with its axes in the order of the patient's");
+  itk::ImageRegion<3> slab = ordered->GetLargestPossibleRegion();
+  const std::size_t depth = slab.GetSize(2);
+  const std::size_t pixels = slab.GetNumberOfPixels() / depth; // of a slice
+  const std::uintmax_t bytes = filters.CountCopies() * pixels * sizeof(typename TImage::PixelType);
+  const std::size_t slices = std::clamp<std::uintmax_t>(allowed / bytes, 1, depth);
+  for (std::size_t begin = 0; begin < depth; begin += slices)
+  {
+    slab.SetIndex(2, static_cast<itk::IndexValueType>(begin) + ordered->GetLargestPossibleRegion().GetIndex(2));
+    slab.SetSize(2, std::min(slices, depth - begin));
+    filters.output->SetRequestedRegion(slab);
+    filters.output->PropagateRequestedRegion();
+    filters.output->UpdateOutputData();
+    std::copy_n(filters.output->GetBufferPointer() + filters.output->ComputeOffset(slab.GetIndex()),
+                slab.GetNumberOfPixels(),
+                ordered->GetBufferPointer() + begin * pixels);
+    DropPages(input);
+    DropPages(ordered);
+  }
+  return ordered;
 }
 
 template <typename TImage>
 typename TImage::Pointer
 OrderAxes(typename TImage::Pointer image, std::uintmax_t maximumMemory)
 {
-  const Order order = FindOrder(image->GetDirection());
-  itk::FixedArray<bool, 3> isReversed;
-  for (unsigned int axis = 0; axis < 3; ++axis)
+  const AxisFilters<TImage> filters(*image);
+  const itk::ImageRegion<3> & region = image->GetLargestPossibleRegion();
+  const std::uintmax_t bytes = filters.CountCopies() * region.GetNumberOfPixels() * sizeof(typename TImage::PixelType);
+  const std::uintmax_t allowed = MemoryAllowance(maximumMemory);
+  if (bytes == 0)
   {
-    isReversed[axis] = image->GetDirection()[axis][order[axis]] < 0.0;
+    return image;
   }
-  const bool isPermuted = order[0] != 0 || order[1] != 1;
-  const bool isFlipped = isReversed[0] || isReversed[1] || isReversed[2];
-  const std::uintmax_t copies = (isPermuted ? 1 : 0) + (isFlipped ? 1 : 0);
-  RequireMemory(copies * image->GetBufferedRegion().GetNumberOfPixels() * sizeof(typename TImage::PixelType),
-                maximumMemory,
-                "Ordering the scan's axes along the patient's",
-                "crop the scan");
-  if (isPermuted)
+  if (image->GetBufferedRegion() != region) // it has no voxels
   {
-    const auto permute = itk::PermuteAxesImageFilter<TImage>::New();
-    permute->SetOrder(order);
-    image = Apply(*permute, *image);
+    return NewFrameOf(*filters.output);
   }
-  if (isFlipped)
+  if (bytes > allowed)
   {
-    const auto flip = itk::FlipImageFilter<TImage>::New();
-    flip->SetFlipAxes(isReversed);
-    flip->FlipAboutOriginOff();
-    image = Apply(*flip, *image);
+    return OrderInTemporaryFile(filters, ScanImage(image), allowed / 2);
   }
-  return image;
+  filters.output->Update();
+  const typename TImage::Pointer output = filters.output;
+  output->DisconnectPipeline();
+  return output;
 }
 
 } // namespace

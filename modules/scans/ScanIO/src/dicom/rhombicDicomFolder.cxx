@@ -231,6 +231,7 @@ OpenStack(const std::vector<DicomSlice> & all,
   UnreadScan file;
   file.scan = scan;
   file.isTypeCertain = HoldsAllValues(scan.image, slices);
+  file.findPlace = [=] { return FindPlaceOfPixels(slices, stack.geometry, options); };
   file.readVoxels = [=](Scan & read) {
     DicomPixels pixels = ReadDicomPixels(slices, stack.geometry, options);
     if (!pixels.failures.empty())

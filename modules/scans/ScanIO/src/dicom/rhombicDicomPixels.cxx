@@ -268,10 +268,9 @@ ReplacePadding(const std::vector<SliceValues> & values,
   }
 }
 
-/** The memory for reading, in bytes: the volume, a bit for each pixel of slices with padding, and the data of each
- * thread. A compressed file is in memory as a whole, and its frames are unpacked twice: one by the helper's library,
- * and up to two in the memory shared with this process. */
-template <typename TPixel>
+/** The memory for reading besides the volume, in bytes: a bit for each pixel of slices with padding, and the data of
+ * each thread. A compressed file is in memory as a whole, and its frames are unpacked twice: one by the helper's
+ * library, and up to two in the memory shared with this process. */
 std::uintmax_t
 MemoryToRead(const std::vector<DicomSlice> & slices, const std::vector<FileSlices> & files)
 {
@@ -288,10 +287,32 @@ MemoryToRead(const std::vector<DicomSlice> & slices, const std::vector<FileSlice
   for (const DicomSlice & slice : slices)
   {
     const DicomPixelFormat & format = slice.file->format;
-    const std::uintmax_t pixels = std::uintmax_t{ format.columns } * format.rows;
-    bytes += pixels * sizeof(TPixel) + (format.padding ? pixels / 8 : 0);
+    bytes += format.padding ? std::uintmax_t{ format.columns } * format.rows / 8 : 0;
   }
   return bytes + largest * std::min(threads, files.size());
+}
+
+std::filesystem::path
+FolderOf(const std::vector<DicomSlice> & slices)
+{
+  return slices.front().file->path.parent_path();
+}
+
+/** Where a volume of \a bytes will be. Throws Failure(Memory) when it fits nowhere. */
+VoxelPlace
+FindPlace(const std::vector<DicomSlice> & slices,
+          const std::vector<FileSlices> & files,
+          std::uintmax_t bytes,
+          const ScanReadOptions & options)
+{
+  const std::uintmax_t besideVolume = MemoryToRead(slices, files);
+  RequireMemory(besideVolume, options.maximumMemory, "Reading " + FolderOf(slices).string());
+  if (bytes + besideVolume <= MemoryAllowance(options.maximumMemory))
+  {
+    return VoxelPlace::Memory;
+  }
+  RequireRoomForTemporaryFile(bytes, FolderOf(slices));
+  return VoxelPlace::TemporaryFile;
 }
 
 /** Reads the volume with a pixel type; nothing when a value is beyond an integer type. */
@@ -300,10 +321,9 @@ std::optional<DicomPixels>
 ReadAs(const std::vector<DicomSlice> & slices, const VolumeGeometry & geometry, const ScanReadOptions & options)
 {
   const std::vector<FileSlices> files = GroupByFile(slices);
-  RequireMemory(MemoryToRead<TPixel>(slices, files),
-                options.maximumMemory,
-                "Reading " + slices.front().file->path.parent_path().string());
-  const auto image = NewImage<TPixel>(geometry);
+  const VoxelPlace place = FindPlace(slices, files, geometry.GetNumberOfVoxels() * sizeof(TPixel), options);
+  const auto image =
+    NewImage<TPixel>(geometry, place == VoxelPlace::Memory ? std::filesystem::path() : FolderOf(slices));
   const std::size_t sliceSize = geometry.size[0] * geometry.size[1];
   std::vector<SliceValues> values(slices.size());
   std::atomic<bool> fits{ true };
@@ -390,6 +410,16 @@ HoldsAllValues(const ScanImage & image, const std::vector<DicomSlice> & slices)
   };
   return !std::holds_alternative<itk::Image<std::int16_t, 3>::Pointer>(image) ||
          std::all_of(slices.begin(), slices.end(), fits);
+}
+
+VoxelPlace
+FindPlaceOfPixels(const std::vector<DicomSlice> & slices,
+                  const VolumeGeometry & geometry,
+                  const ScanReadOptions & options)
+{
+  const auto sizeOf = [](const auto & image) { return sizeof(typename std::decay_t<decltype(*image)>::PixelType); };
+  const std::uintmax_t sizeOfVoxel = std::visit(sizeOf, NewDicomImage(slices, geometry));
+  return FindPlace(slices, GroupByFile(slices), geometry.GetNumberOfVoxels() * sizeOfVoxel, options);
 }
 
 DicomPixels

@@ -103,12 +103,19 @@ HoldsAllValues(const ScanImage & image, const std::vector<DicomSlice> & slices);
 /** Reads slices in their order into one volume; their files must have no pixelDamage. Uncompressed pixels are read
  * here, the others by child processes, as many files at once as there are threads. Padding is replaced by the lowest
  * other value. It is kept when there is only one other value or padding is the next value below the others: then it is
- * the background of a mask or label map. Throws Failure(Memory) when the volume takes more memory than the options
- * allow. */
+ * the background of a mask or label map. A volume that takes more memory than the options allow is put into a temporary
+ * file. Throws Failure(Memory) when a file's own pixels do not fit, or there is no room. */
 DicomPixels
 ReadDicomPixels(const std::vector<DicomSlice> & slices,
                 const VolumeGeometry & geometry,
                 const ScanReadOptions & options);
+
+/** Where ReadDicomPixels() will put the pixels, if they fit into the type that is tried first. Throws Failure(Memory)
+ * as it does. */
+VoxelPlace
+FindPlaceOfPixels(const std::vector<DicomSlice> & slices,
+                  const VolumeGeometry & geometry,
+                  const ScanReadOptions & options);
 
 /** Opens the frames of a DICOM segmentation of type BINARY or LABELMAP (PS3.3, A.51 and A.91) as one label map: fills
  * image, labels and notes of \a scan. Voxels of no segment are 0; where segments overlap, the later frame counts.

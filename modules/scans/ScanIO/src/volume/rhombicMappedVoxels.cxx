@@ -23,6 +23,70 @@ namespace rhombic
 namespace
 {
 
+/** \class MappedPages
+ * \brief Pages of a file in the address space. */
+class MappedPages
+{
+public:
+  /** Takes over the open \a file. \a flags of mmap(). The address is null when the system does not map them, as beyond
+   * a limit of the address space. */
+  MappedPages(int file, std::uintmax_t begin, std::size_t size, int flags)
+    : m_File(file)
+    , m_Size(size)
+    , m_IsShared((flags & MAP_SHARED) != 0)
+  {
+    void * const pages = mmap(nullptr, size, PROT_READ | PROT_WRITE, flags, file, static_cast<off_t>(begin));
+    if (pages != MAP_FAILED)
+    {
+      m_Address = static_cast<std::byte *>(pages);
+      madvise(pages, size, MADV_SEQUENTIAL); // pages that were used are the first to be dropped
+    }
+  }
+
+  ~MappedPages()
+  {
+    if (m_Address != nullptr)
+    {
+      munmap(m_Address, m_Size);
+    }
+    close(m_File);
+  }
+
+  MappedPages(const MappedPages &) = delete;
+  MappedPages &
+  operator=(const MappedPages &) = delete;
+
+  std::byte *
+  GetAddress() const
+  {
+    return m_Address;
+  }
+
+  bool
+  IsShared() const
+  {
+    return m_IsShared;
+  }
+
+  /** Drops them from memory; those that differ from the file are kept, or written to it if they are shared. */
+  void
+  Drop() const
+  {
+    if (m_IsShared)
+    {
+      fdatasync(m_File);
+    }
+    madvise(m_Address, m_Size, MADV_PAGEOUT);
+    posix_fadvise(m_File, 0, 0, POSIX_FADV_DONTNEED); // those that were read ahead
+  }
+
+private:
+  const int m_File;
+  const std::size_t m_Size;
+  const bool m_IsShared;
+  std::byte * m_Address = nullptr;
+};
+
 /** \class MappedContainer
  * \brief The pixels of an image in a mapped file. */
 template <typename TPixel>
@@ -39,10 +103,16 @@ public:
   itkTypeMacro(MappedContainer, ImportImageContainer);
 
   void
-  Take(std::shared_ptr<std::byte> mapping, std::size_t offset, std::size_t count)
+  Take(std::unique_ptr<MappedPages> pages, std::size_t offset, std::size_t count)
   {
-    m_Mapping = std::move(mapping);
-    this->SetImportPointer(reinterpret_cast<TPixel *>(m_Mapping.get() + offset), count, false);
+    m_Pages = std::move(pages);
+    this->SetImportPointer(reinterpret_cast<TPixel *>(m_Pages->GetAddress() + offset), count, false);
+  }
+
+  const MappedPages &
+  GetPages() const
+  {
+    return *m_Pages;
   }
 
 protected:
@@ -50,137 +120,182 @@ protected:
   ~MappedContainer() override = default;
 
 private:
-  std::shared_ptr<std::byte> m_Mapping;
+  std::unique_ptr<MappedPages> m_Pages;
 };
 
-/** Pages of a file from \a begin on, a multiple of the pages' size. Null when the system does not map them, as beyond a
- * limit of the address space. Memory for changed pages is not reserved. */
-std::shared_ptr<std::byte>
+/** Pages of a file from \a begin on, a multiple of the pages' size. Null when the system does not map them. Memory for
+ * changed pages is not reserved. */
+std::unique_ptr<MappedPages>
 MapPages(const std::filesystem::path & path, std::uintmax_t begin, std::size_t size)
 {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0)
-  {
-    return nullptr;
-  }
-  void * const pages =
-    mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_NORESERVE, file, static_cast<off_t>(begin));
-  close(file);
-  if (pages == MAP_FAILED)
-  {
-    return nullptr;
-  }
-  madvise(pages, size, MADV_SEQUENTIAL); // pages that were used are the first to be dropped
-  return { static_cast<std::byte *>(pages), [size](std::byte * address) { munmap(address, size); } };
+  auto pages = file < 0 ? nullptr : std::make_unique<MappedPages>(file, begin, size, MAP_PRIVATE | MAP_NORESERVE);
+  return pages && pages->GetAddress() != nullptr ? std::move(pages) : nullptr;
 }
 
-/** Pages of a new file without a name in the folder of temporary files. Throws Failure(Memory), naming the scan. */
-std::shared_ptr<std::byte>
+/** The folder of temporary files; empty if there is none. */
+std::filesystem::path
+TemporaryFolder()
+{
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+  return error ? std::filesystem::path() : folder;
+}
+
+[[noreturn]] void
+RefuseTemporaryFile(std::uintmax_t size, const std::filesystem::path & scan, const std::string & why)
+{
+  const std::string folder = TemporaryFolder().string();
+  throw Failure(
+    FailureKind::Memory,
+    "Cannot read " + scan.string() + ": its " + DescribeBytes(size) +
+      " of voxels are too large for the memory that is allowed, and can't be put into a temporary file in " +
+      (folder.empty() ? "a folder" : folder) + " (" + why + "); let TMPDIR name a folder on a disk with more room.");
+}
+
+/** Maps a new file without a name in the folder of temporary files. Throws Failure(Memory), naming the scan. */
+std::unique_ptr<MappedPages>
 MapTemporaryFile(std::size_t size, const std::filesystem::path & scan)
 {
-  std::error_code folderError;
-  const std::filesystem::path folder = std::filesystem::temp_directory_path(folderError);
-  const auto fail = [&](const std::string & why) {
-    throw Failure(
-      FailureKind::Memory,
-      "Cannot read " + scan.string() + ": its " + DescribeBytes(size) +
-        " of voxels are too large for the memory that is allowed, and can't be put into a temporary file in " +
-        (folder.empty() ? "a folder" : folder.string()) + " (" + why +
-        "); let TMPDIR name a folder on a disk with more room.");
-  };
-  if (folderError)
-  {
-    fail(folderError.message());
-  }
-  struct statfs system
-  {};
-  const bool isKnown = statfs(folder.c_str(), &system) == 0;
-  if (isKnown && (system.f_type == TMPFS_MAGIC || system.f_type == RAMFS_MAGIC))
-  {
-    fail("it is in memory itself");
-  }
-  std::string name = (folder / "rhombic-XXXXXX").string();
+  RequireRoomForTemporaryFile(size, scan);
+  std::string name = (TemporaryFolder() / "rhombic-XXXXXX").string();
   const int file = mkostemp(name.data(), O_CLOEXEC);
   if (file < 0)
   {
-    fail(std::strerror(errno));
+    RefuseTemporaryFile(size, scan, std::strerror(errno));
   }
   unlink(name.c_str());
-  const int error =
-    posix_fallocate(file, 0, static_cast<off_t>(size)); // pages without room on the disk end the process
-  void * const pages = error != 0 ? MAP_FAILED : mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
-  const int mapError = errno;
-  close(file);
-  if (pages == MAP_FAILED)
+  auto pages = std::make_unique<MappedPages>(file, 0, size, MAP_SHARED);
+  if (pages->GetAddress() == nullptr)
   {
-    fail(std::strerror(error != 0 ? error : mapError));
+    RefuseTemporaryFile(size, scan, "a limit of the address space, as ulimit -v, forbids it");
   }
-  madvise(pages, size, MADV_SEQUENTIAL);
-  return { static_cast<std::byte *>(pages), [size](std::byte * address) { munmap(address, size); } };
+  // Pages without room on the disk would end the process.
+  if (const int error = posix_fallocate(file, 0, static_cast<off_t>(size)); error != 0)
+  {
+    RefuseTemporaryFile(size, scan, std::strerror(error));
+  }
+  return pages;
 }
 
-/** An image over pages that are mapped; nothing where its pixels are not of the stored type, or there are no pages.
- * \param map maps them, and is called only for the right type */
-template <typename TMap>
-std::optional<ScanImage>
-ImageOverPages(StoredType type, const VolumeGeometry & geometry, std::size_t offset, const TMap & map)
+template <typename TPixel>
+void
+PutInto(itk::Image<TPixel, 3> & image, std::unique_ptr<MappedPages> pages, std::size_t offset)
 {
-  ScanImage image = NewVolumeImage(type, false, geometry);
-  const bool isMapped = std::visit(
-    [&](auto stored, const auto & mapped) {
-      using Pixel = typename std::decay_t<decltype(*mapped)>::PixelType;
-      if constexpr (std::is_same_v<decltype(stored), Pixel>)
-      {
-        if (auto pages = map())
-        {
-          const auto container = MappedContainer<Pixel>::New();
-          container->Take(std::move(pages), offset, geometry.GetNumberOfVoxels());
-          mapped->SetRegions(geometry.size);
-          mapped->SetPixelContainer(container);
-          return true;
-        }
-      }
-      return false;
+  const itk::ImageRegion<3> & region = image.GetLargestPossibleRegion();
+  const auto container = MappedContainer<TPixel>::New();
+  container->Take(std::move(pages), offset, region.GetNumberOfPixels());
+  image.SetRegions(region);
+  image.SetPixelContainer(container);
+}
+
+/** The place of a frame's first voxel in its file. */
+std::uintmax_t
+OffsetOf(const StoredVolume & volume, std::uintmax_t frame)
+{
+  const std::uintmax_t size = volume.geometry.GetNumberOfVoxels() * SizeOf(volume.type);
+  return volume.voxels.offset + volume.voxels.skip + frame * size;
+}
+
+/** The pages of a mapped image; null for others. */
+const MappedPages *
+FindPages(const ScanImage & image)
+{
+  return std::visit(
+    [](const auto & voxels) -> const MappedPages * {
+      using Pixel = typename std::decay_t<decltype(*voxels)>::PixelType;
+      const auto * const container =
+        voxels ? dynamic_cast<const MappedContainer<Pixel> *>(voxels->GetPixelContainer()) : nullptr;
+      return container ? &container->GetPages() : nullptr;
     },
-    type,
     image);
-  return isMapped ? std::optional(image) : std::nullopt;
 }
 
 } // namespace
 
-std::optional<ScanImage>
-NewImageInTemporaryFile(StoredType type, const VolumeGeometry & geometry, const std::filesystem::path & path)
+void
+RequireRoomForTemporaryFile(std::uintmax_t size, const std::filesystem::path & scan)
 {
-  const std::size_t size = geometry.GetNumberOfVoxels() * SizeOf(type);
-  return ImageOverPages(type, geometry, 0, [&] { return MapTemporaryFile(size, path); });
+  const std::filesystem::path folder = TemporaryFolder();
+  struct statfs system
+  {};
+  if (folder.empty() || statfs(folder.c_str(), &system) != 0)
+  {
+    RefuseTemporaryFile(size, scan, "which is not there");
+  }
+  if (system.f_type == TMPFS_MAGIC || system.f_type == RAMFS_MAGIC)
+  {
+    RefuseTemporaryFile(size, scan, "it is in memory itself");
+  }
+  const std::uintmax_t free = std::uintmax_t{ system.f_bavail } * static_cast<std::uintmax_t>(system.f_bsize);
+  if (free < size)
+  {
+    RefuseTemporaryFile(size, scan, "where " + DescribeBytes(free) + " are free");
+  }
+}
+
+void
+AllocateInTemporaryFile(const ScanImage & image, const std::filesystem::path & scan)
+{
+  std::visit(
+    [&scan](const auto & voxels) {
+      using Pixel = typename std::decay_t<decltype(*voxels)>::PixelType;
+      const std::size_t size = voxels->GetLargestPossibleRegion().GetNumberOfPixels() * sizeof(Pixel);
+      PutInto(*voxels, MapTemporaryFile(size, scan), 0);
+    },
+    image);
+}
+
+bool
+CanBeMapped(const StoredVolume & volume, std::uintmax_t frame)
+{
+  const bool isPixel = std::visit(
+    [](auto stored, const auto & voxels) {
+      return std::is_same_v<decltype(stored), typename std::decay_t<decltype(*voxels)>::PixelType>;
+    },
+    volume.type,
+    NewVolumeImage(volume.type, false, volume.geometry));
+  const bool isInterleaved = volume.areFramesInterleaved && volume.numberOfFrames > 1;
+  return isPixel && !volume.scaling && !volume.voxels.isDeflated && !volume.voxels.isSwapped && !isInterleaved &&
+         OffsetOf(volume, frame) % SizeOf(volume.type) == 0;
 }
 
 std::optional<ScanImage>
 MapVoxels(const StoredVolume & volume, std::uintmax_t frame)
 {
-  const std::size_t voxelSize = SizeOf(volume.type);
-  const std::size_t size = volume.geometry.GetNumberOfVoxels() * voxelSize;
-  const std::uintmax_t offset = volume.voxels.offset + volume.voxels.skip + frame * size;
-  const bool isInterleaved = volume.areFramesInterleaved && volume.numberOfFrames > 1;
-  if (volume.scaling || volume.voxels.isDeflated || volume.voxels.isSwapped || isInterleaved || offset % voxelSize != 0)
+  const std::size_t size = volume.geometry.GetNumberOfVoxels() * SizeOf(volume.type);
+  const std::uintmax_t offset = OffsetOf(volume, frame);
+  const auto inPage = static_cast<std::size_t>(offset % static_cast<std::uintmax_t>(sysconf(_SC_PAGESIZE)));
+  auto pages = MapPages(volume.voxels.path, offset - inPage, inPage + size);
+  if (!pages)
   {
     return std::nullopt;
   }
-  const auto inPage = static_cast<std::size_t>(offset % static_cast<std::uintmax_t>(sysconf(_SC_PAGESIZE)));
-  return ImageOverPages(
-    volume.type, volume.geometry, inPage, [&] { return MapPages(volume.voxels.path, offset - inPage, inPage + size); });
+  const ScanImage image = NewVolumeImage(volume.type, false, volume.geometry);
+  std::visit([&](const auto & voxels) { PutInto(*voxels, std::move(pages), inPage); }, image);
+  return image;
 }
 
 bool
 IsMapped(const ScanImage & image)
 {
-  return std::visit(
-    [](const auto & voxels) {
-      using Pixel = typename std::decay_t<decltype(*voxels)>::PixelType;
-      return voxels && dynamic_cast<const MappedContainer<Pixel> *>(voxels->GetPixelContainer()) != nullptr;
-    },
-    image);
+  return FindPages(image) != nullptr;
+}
+
+VoxelPlace
+PlaceOf(const ScanImage & image)
+{
+  const MappedPages * const pages = FindPages(image);
+  return pages == nullptr ? VoxelPlace::Memory : pages->IsShared() ? VoxelPlace::TemporaryFile : VoxelPlace::File;
+}
+
+void
+DropPages(const ScanImage & image)
+{
+  if (const MappedPages * const pages = FindPages(image))
+  {
+    pages->Drop();
+  }
 }
 
 } // namespace rhombic

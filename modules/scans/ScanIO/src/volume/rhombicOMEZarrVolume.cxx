@@ -91,6 +91,28 @@ private:
 template <typename TStored>
 constexpr bool IsPixel = std::is_constructible_v<ScanImage, typename itk::Image<TStored, 3>::Pointer>;
 
+/** Where the voxels will be. Throws Failure(Memory) when they fit nowhere. */
+VoxelPlace
+FindPlace(const OMEZarrImage & image, const ScanReadOptions & options, const fs::path & path)
+{
+  const bool isDirect = std::visit([](auto stored) { return IsPixel<decltype(stored)>; }, image.GetType());
+  const std::uintmax_t size = itk::ImageRegion<3>(image.GetSize()).GetNumberOfPixels();
+  const std::uintmax_t pixels = MemoryOfPixels(image.GetType(), false, size);
+  const std::uintmax_t working = image.GetWorkingMemory() + (isDirect ? 0 : ZarrBands::MemoryOf(image));
+  if (pixels + working <= MemoryAllowance(options.maximumMemory))
+  {
+    return VoxelPlace::Memory;
+  }
+  RequireMemory(working,
+                0,
+                "Unpacking chunks of " + path.string(),
+                image.GetNumberOfLevels() > options.level + 1
+                  ? "choose a coarser level of its pyramid with ScanReadOptions::level"
+                  : "");
+  RequireRoomForTemporaryFile(pixels, path);
+  return VoxelPlace::TemporaryFile;
+}
+
 /** Reads all voxels, converted as OpenScan() documents. */
 ScanImage
 ReadZarrVoxels(const OMEZarrImage & image,
@@ -99,29 +121,12 @@ ReadZarrVoxels(const OMEZarrImage & image,
                const ScanReadOptions & options,
                const fs::path & path)
 {
-  const bool isDirect = std::visit([](auto stored) { return IsPixel<decltype(stored)>; }, image.GetType());
-  const std::uintmax_t bytes = MemoryOfPixels(image.GetType(), false, geometry.GetNumberOfVoxels()) +
-                               image.GetWorkingMemory() + (isDirect ? 0 : ZarrBands::MemoryOf(image));
-  if (isDirect && bytes > MemoryAllowance(options.maximumMemory))
-  {
-    RequireMemory(image.GetWorkingMemory(), 0, "Unpacking chunks of " + path.string());
-    const ScanImage mapped = NewImageInTemporaryFile(image.GetType(), geometry, path).value();
-    std::visit(
-      [&](const auto & voxels) { image.Read(frame, geometry.size, voxels->GetBufferPointer(), options.progress); },
-      mapped);
-    return mapped;
-  }
-  RequireMemory(bytes,
-                options.maximumMemory,
-                "Reading " + path.string(),
-                image.GetNumberOfLevels() > options.level + 1
-                  ? "choose a coarser level of its pyramid with ScanReadOptions::level"
-                  : "");
+  const fs::path largeScan = FindPlace(image, options, path) == VoxelPlace::Memory ? fs::path() : path;
   const auto read = [&](auto stored) -> ScanImage {
     using Stored = decltype(stored);
     if constexpr (IsPixel<Stored>)
     {
-      const auto voxels = NewImage<Stored>(geometry);
+      const auto voxels = NewImage<Stored>(geometry, largeScan);
       image.Read(frame, geometry.size, voxels->GetBufferPointer(), options.progress);
       return voxels;
     }
@@ -129,7 +134,7 @@ ReadZarrVoxels(const OMEZarrImage & image,
     {
       ZarrBands bands(image, frame, options.progress);
       const auto source = [&bands](std::byte * buffer, std::size_t size) { bands.Read(buffer, size); };
-      return ReadVolumePixels(image.GetType(), std::nullopt, geometry, source);
+      return ReadVolumePixels(image.GetType(), std::nullopt, geometry, source, largeScan);
     }
   };
   return std::visit(read, image.GetType());
@@ -202,6 +207,7 @@ OpenOMEZarr(const fs::path & folder, const ScanReadOptions & options)
     read.files = image.FindFiles(read.frame);
     ReplaceNotFinite(folder, read);
   };
+  file.findPlace = [=] { return FindPlace(image, options, folder); };
   file.native = NativeVoxelsOfZarr(image, scan.frame, folder);
   return file;
 }

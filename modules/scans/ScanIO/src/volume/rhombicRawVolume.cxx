@@ -46,15 +46,7 @@ DescribeRawVolume(const std::filesystem::path & path, const ScanReadOptions & op
                    "; correct ScanReadOptions::raw, or copy the file again");
   StoredVolume volume;
   volume.type = *type;
-  itk::Vector<double, 3> steps[3];
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    steps[axis].Fill(0);
-    steps[axis][axis] = (*options.voxelSize)[axis];
-  }
-  itk::Point<double, 3> origin;
-  origin.Fill(0);
-  volume.geometry = MakeGeometry({ { layout.size[0], layout.size[1], layout.size[2] } }, origin, steps);
+  volume.geometry = MakeUnplacedGeometry({ { layout.size[0], layout.size[1], layout.size[2] } }, *options.voxelSize);
   volume.matrix = "voxel size";
   volume.encoding = "raw";
   volume.voxels.path = path;

@@ -122,24 +122,23 @@ SwapBytes(std::byte * buffer, std::size_t size, std::size_t valueSize);
 /** Reads the next \a size bytes of the voxels, a whole number of voxels, in this machine's byte order. */
 using VoxelSource = std::function<void(std::byte * buffer, std::size_t size)>;
 
-/** Reads the voxels of a volume in one pass, converted as OpenScan() documents. Throws what \a source throws. */
+/** Reads the voxels of a volume in one pass, converted as OpenScan() documents. Throws what \a source throws.
+ * \param largeScan see NewImage() */
 ScanImage
 ReadVolumePixels(StoredType type,
                  const std::optional<ValueScaling> & scaling,
                  const VolumeGeometry & geometry,
-                 const VoxelSource & source);
+                 const VoxelSource & source,
+                 const std::filesystem::path & largeScan = {});
 
-/** One frame as an image over the mapped file (see IsMapped()); nothing where its voxels can't be used as the file
- * holds them, or the system does not map it. */
+/** Whether the voxels of a frame can be used as the file holds them. */
+bool
+CanBeMapped(const StoredVolume & volume, std::uintmax_t frame);
+
+/** One frame that can be mapped, as an image over the file (see IsMapped()); nothing where the system does not map it.
+ */
 std::optional<ScanImage>
 MapVoxels(const StoredVolume & volume, std::uintmax_t frame);
-
-/** An image whose pixels are a temporary file without a name, which goes away with it: for voxels that do not fit into
- * memory and are not stored as an image holds them. Their values are 0. Nothing where \a type is not the pixels' type.
- * Throws Failure(Memory) when there is no room, or the folder of temporary files is in memory itself. \a path names
- * the scan. */
-std::optional<ScanImage>
-NewImageInTemporaryFile(StoredType type, const VolumeGeometry & geometry, const std::filesystem::path & path);
 
 /** Reads \a count voxels into \a buffer, as they are stored, or as floats when they are scaled. Throws what \a source
  * throws. */

@@ -147,9 +147,12 @@ private:
   std::uintmax_t m_Position = 0; ///< bytes of the frame that were passed
 };
 
-/** Reads one frame, in one pass. */
+/** Reads one frame, in one pass. \a largeScan see NewImage(). */
 ScanImage
-ReadStoredVoxels(const StoredVolume & volume, std::uintmax_t frame, const ScanReadOptions & options)
+ReadStoredVoxels(const StoredVolume & volume,
+                 std::uintmax_t frame,
+                 const ScanReadOptions & options,
+                 const fs::path & largeScan = {})
 {
   FrameBytes bytes(volume, frame, volume.geometry.size);
   const auto total = static_cast<double>(volume.geometry.GetNumberOfVoxels() * SizeOf(volume.type));
@@ -162,39 +165,64 @@ ReadStoredVoxels(const StoredVolume & volume, std::uintmax_t frame, const ScanRe
       options.progress(static_cast<double>(done) / total);
     }
   };
-  ScanImage image = ReadVolumePixels(volume.type, volume.scaling, volume.geometry, read);
+  ScanImage image = ReadVolumePixels(volume.type, volume.scaling, volume.geometry, read, largeScan);
   bytes.RequireEnd();
   return image;
 }
 
-/** What to do with a file that is larger than the memory and can't be mapped. */
+/** How to unpack a compressed stream, as only a raw file need not fit into memory. */
 std::string
-AdviseMapping(const StoredVolume & volume, const fs::path & path)
+AdviseUnpacking(const StoredVolume & volume, const fs::path & path)
 {
-  const bool isNIfTI = volume.voxels.isDeflated && VolumeExtension(path) == ".nii.gz";
-  return isNIfTI ? "unpack it by gunzip -k " + path.filename().string() + ", as a raw file need not fit"
-                 : "write it as raw .mhd, .nhdr or .nii in little-endian bytes, without a scaling, which need not fit";
+  const std::string file = path.filename().string();
+  const std::string raw = path.stem().string() + "-raw";
+  const std::string format = VolumeFormatOf(path);
+  const std::string voxels = volume.voxels.path.filename().string();
+  const std::string header = "sed '/^ElementDataFile/q' " + file +
+                             " | sed 's/^CompressedData .*/CompressedData = False/; /^CompressedDataSize/d; "
+                             "s/^ElementDataFile .*/ElementDataFile = " +
+                             raw + ".raw/' > " + raw + ".mhd";
+  const std::string command = format == "NIfTI"  ? "gunzip -k " + voxels
+                              : format == "NRRD" ? "unu save -e raw -f nrrd -i " + file + " -o " + raw + ".nhdr"
+                                                 : header + "; tail -c +" + std::to_string(volume.voxels.offset + 1) +
+                                                     ' ' + voxels + " | zlib-flate -uncompress > " + raw + ".raw";
+  return "unpack it by " + command + ", as a raw file need not fit";
 }
 
-/** Reads the voxels of one frame, or maps its file when they would take more than half of the memory allowed. */
+/** Where the voxels of one frame will be: the file is mapped when they would take more than half of the memory allowed;
+ * others that would take all of it are put into a temporary file. Throws Failure(Memory) when that can't be. */
+VoxelPlace
+FindPlace(const StoredVolume & volume, std::uintmax_t frame, const fs::path & path, const ScanReadOptions & options)
+{
+  const std::uintmax_t group = volume.areFramesInterleaved ? volume.numberOfFrames * SizeOf(volume.type) : 0;
+  const std::uintmax_t bytes =
+    group + MemoryOfPixels(volume.type, volume.scaling.has_value(), volume.geometry.GetNumberOfVoxels());
+  const std::uintmax_t allowed = MemoryAllowance(options.maximumMemory);
+  if (bytes > allowed / 2 && CanBeMapped(volume, frame))
+  {
+    return VoxelPlace::File;
+  }
+  if (volume.voxels.isDeflated)
+  {
+    RequireMemory(bytes, options.maximumMemory, "Reading " + path.string(), AdviseUnpacking(volume, path));
+  }
+  if (bytes > allowed)
+  {
+    RequireRoomForTemporaryFile(bytes, path);
+  }
+  return bytes > allowed ? VoxelPlace::TemporaryFile : VoxelPlace::Memory;
+}
+
+/** Reads the voxels of one frame, or maps its file. */
 ScanImage
 ReadOrMapVoxels(const StoredVolume & volume,
                 std::uintmax_t frame,
                 const fs::path & path,
                 const ScanReadOptions & options)
 {
-  const std::uintmax_t group = volume.areFramesInterleaved ? volume.numberOfFrames * SizeOf(volume.type) : 0;
-  const std::uintmax_t bytes =
-    group + MemoryOfPixels(volume.type, volume.scaling.has_value(), volume.geometry.GetNumberOfVoxels());
-  if (bytes > MemoryAllowance(options.maximumMemory) / 2)
-  {
-    if (const auto mapped = MapVoxels(volume, frame))
-    {
-      return *mapped;
-    }
-  }
-  RequireMemory(bytes, options.maximumMemory, "Reading " + path.string(), AdviseMapping(volume, path));
-  return ReadStoredVoxels(volume, frame, options);
+  const VoxelPlace place = FindPlace(volume, frame, path, options);
+  const auto mapped = place == VoxelPlace::File ? MapVoxels(volume, frame) : std::nullopt;
+  return mapped ? *mapped : ReadStoredVoxels(volume, frame, options, place == VoxelPlace::Memory ? fs::path() : path);
 }
 
 /** Reads and checks the header. Describes in \a scan what the result can't hold. */
@@ -399,6 +427,10 @@ OpenVolumeFile(const fs::path & path, const ScanReadOptions & options)
     read.image = ReadOrMapVoxels(volume, read.frame, path, options);
     ReplaceNotFinite(path, read);
   };
+  if (!isLayered)
+  {
+    file.findPlace = [=, frame = scan.frame] { return FindPlace(volume, frame, path, options); };
+  }
   if (volume.numberOfFrames == 1)
   {
     file.native = NativeVoxelsOf(volume, path);

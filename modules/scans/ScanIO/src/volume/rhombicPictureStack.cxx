@@ -1,0 +1,362 @@
+#include "rhombicScanFormats.h"
+
+#include "rhombicDicomHeader.h"
+#include "rhombicFiles.h"
+#include "rhombicFiniteValues.h"
+#include "rhombicForEachBlock.h"
+#include "rhombicMemoryBudget.h"
+#include "rhombicSandbox.h"
+#include "rhombicStoredVolume.h"
+#include "rhombicVolumeRefusal.h"
+#include "rhombicWording.h"
+
+#include "itkImageIOBase.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <type_traits>
+
+namespace fs = std::filesystem;
+
+namespace rhombic
+{
+namespace
+{
+
+constexpr char PictureHelper[] = "rhombic-unpack-picture";
+constexpr std::size_t LargestBand = 8 << 20; // bytes of a picture that are unpacked at once
+
+/** OpenImageIO's name of a picture's format; empty for other files. */
+std::string
+PictureFormatOf(const fs::path & path)
+{
+  static const std::map<std::string, std::string> formats{ { ".tif", "tiff" },     { ".tiff", "tiff" },
+                                                           { ".png", "png" },      { ".jp2", "jpeg2000" },
+                                                           { ".j2k", "jpeg2000" }, { ".bmp", "bmp" } };
+  const auto found = formats.find(LowerCase(path.extension().string()));
+  return found == formats.end() ? "" : found->second;
+}
+
+bool
+IsPicture(const fs::path & path)
+{
+  return !PictureFormatOf(path).empty();
+}
+
+/** Whether a name comes before another one, where numbers in them count by their values: slice2 before slice10. */
+bool
+ComesBefore(const std::string & a, const std::string & b)
+{
+  const auto isDigit = [](char letter) { return letter >= '0' && letter <= '9'; };
+  std::size_t i = 0, j = 0;
+  while (i < a.size() && j < b.size())
+  {
+    const auto numberAt = [&isDigit](const std::string & text, std::size_t & place) {
+      const std::size_t first = std::min(text.find_first_not_of('0', place), text.size());
+      place = first;
+      while (place < text.size() && isDigit(text[place]))
+      {
+        ++place;
+      }
+      return text.substr(first, place - first);
+    };
+    if (isDigit(a[i]) && isDigit(b[j]))
+    {
+      const std::string one = numberAt(a, i), other = numberAt(b, j);
+      if (one != other)
+      {
+        return one.size() != other.size() ? one.size() < other.size() : one < other;
+      }
+    }
+    else if (a[i] != b[j])
+    {
+      return a[i] < b[j];
+    }
+    else
+    {
+      ++i;
+      ++j;
+    }
+  }
+  const bool aEnds = i == a.size(), bEnds = j == b.size();
+  return aEnds != bEnds ? aEnds : a < b; // of names that differ by zeros only, the first in the alphabet
+}
+
+/** What the header of a picture tells. */
+struct PictureHeader
+{
+  std::size_t width = 0;
+  std::size_t height = 0;
+  int channels = 0;
+  std::string type; ///< as "uint16"
+  int bits = 0;     ///< of a value in the file; 0 if unknown
+};
+
+SandboxJob
+JobOf(const fs::path & picture, const std::string & what, std::size_t pieceSize)
+{
+  SandboxJob job{ PictureHelper, picture, PictureFormatOf(picture) + ' ' + what, pieceSize };
+  job.limits.memory = std::uintmax_t{ 2 } << 30; // some decoders hold a whole picture, in wider numbers
+  return job;
+}
+
+PictureHeader
+ReadPictureHeader(const fs::path & path)
+{
+  constexpr std::size_t longest = 1024;
+  SandboxRun run(JobOf(path, "header", longest));
+  const auto piece = run.Next();
+  RefuseVolumeIf(!piece, path, "it has no header of a picture; copy it again from its source");
+  const auto * const text = reinterpret_cast<const char *>(piece->data);
+  const auto json = nlohmann::json::parse(text, text + piece->size);
+  run.Next();
+  return { json.at("width"), json.at("height"), json.at("channels"), json.at("type"), json.at("bits") };
+}
+
+/** The type of a stack's values. Throws Failure for others, colours, and sizes that no volume has. */
+StoredType
+FindType(const PictureHeader & header, const fs::path & path)
+{
+  static const std::map<std::string, StoredType> types{ { "uint8", std::uint8_t() },   { "int8", std::int8_t() },
+                                                        { "uint16", std::uint16_t() }, { "int16", std::int16_t() },
+                                                        { "uint", std::uint32_t() },   { "uint32", std::uint32_t() },
+                                                        { "int", std::int32_t() },     { "int32", std::int32_t() },
+                                                        { "uint64", std::uint64_t() }, { "int64", std::int64_t() },
+                                                        { "float", float() },          { "double", double() } };
+  RefuseOtherIf(header.channels != 1,
+                path,
+                "its pixels have " + std::to_string(header.channels) +
+                  " channels, as colours or transparency, and a slice of a stack has one value a pixel; convert the "
+                  "pictures to grey");
+  const auto found = types.find(header.type);
+  RefuseOtherIf(found == types.end(), path, "its values are of type " + header.type + "; convert the pictures to grey");
+  RefuseVolumeIf(header.width == 0 || header.height == 0, path, "it has no pixels; copy it again from its source");
+  return found->second;
+}
+
+/** Throws Failure, naming both, for a picture that is not as the first of its stack. */
+void
+RequireSame(const PictureHeader & header,
+            const fs::path & path,
+            const PictureHeader & first,
+            const fs::path & firstPath)
+{
+  const auto sizeOf = [](const PictureHeader & picture) {
+    return std::to_string(picture.width) + " x " + std::to_string(picture.height);
+  };
+  const bool isSame = header.width == first.width && header.height == first.height && header.type == first.type &&
+                      header.channels == first.channels && header.bits == first.bits;
+  RefuseVolumeIf(!isSame,
+                 path,
+                 "it has " + sizeOf(header) + " pixels of " + Count(header.channels, "channel") + " in " + header.type +
+                   ", and " + firstPath.filename().string() + " has " + sizeOf(first) + " of " +
+                   Count(first.channels, "channel") + " in " + first.type +
+                   "; a stack has slices of one kind, so move others to another folder");
+}
+
+/** \class PictureStack
+ * \brief The values of pictures of one size and type, which are slices. */
+class PictureStack
+{
+public:
+  PictureStack(std::vector<fs::path> pictures, const PictureHeader & header, StoredType type)
+    : m_Pictures(std::move(pictures))
+    , m_Rows(header.height)
+    , m_RowBytes(header.width * SizeOf(type))
+  {}
+
+  std::size_t
+  GetSliceBytes() const
+  {
+    return m_Rows * m_RowBytes;
+  }
+
+  /** Unpacks a slice. Throws Failure, naming the picture. */
+  void
+  Read(std::size_t slice, std::byte * values) const
+  {
+    const fs::path & path = m_Pictures[slice];
+    const std::size_t band = std::max(LargestBand, 512 * m_RowBytes); // with all rows of a tile
+    SandboxRun run(JobOf(path, "pixels", std::min(band, this->GetSliceBytes())));
+    std::size_t done = 0;
+    while (const auto piece = run.Next())
+    {
+      RefuseVolumeIf(piece->size > this->GetSliceBytes() - done, path, "it has changed; try again");
+      std::memcpy(values + done, piece->data, piece->size);
+      done += piece->size;
+    }
+    RefuseVolumeIf(done != this->GetSliceBytes(), path, "it has changed; try again");
+  }
+
+private:
+  std::vector<fs::path> m_Pictures;
+  std::size_t m_Rows;
+  std::size_t m_RowBytes;
+};
+
+/** Reads all voxels, converted as OpenScan() documents. */
+ScanImage
+ReadStack(const PictureStack & stack,
+          StoredType type,
+          const VolumeGeometry & geometry,
+          const fs::path & largeScan,
+          const ProgressFunction & progress)
+{
+  const std::size_t sliceBytes = stack.GetSliceBytes();
+  const auto read = [&](auto stored) -> ScanImage {
+    using Stored = decltype(stored);
+    if constexpr (std::is_constructible_v<ScanImage, typename itk::Image<Stored, 3>::Pointer>)
+    {
+      const auto image = NewImage<Stored>(geometry, largeScan);
+      auto * const values = reinterpret_cast<std::byte *>(image->GetBufferPointer());
+      ForEachOnThreads(
+        geometry.size[2], [&](std::size_t n) { stack.Read(n, values + n * sliceBytes); }, progress);
+      return image;
+    }
+    else
+    {
+      std::vector<std::byte> slice(sliceBytes);
+      std::size_t used = sliceBytes;
+      std::size_t next = 0;
+      const auto source = [&](std::byte * buffer, std::size_t size) {
+        while (size > 0)
+        {
+          if (used == sliceBytes)
+          {
+            stack.Read(next++, slice.data());
+            used = 0;
+            if (progress)
+            {
+              progress(static_cast<double>(next) / static_cast<double>(geometry.size[2]));
+            }
+          }
+          const std::size_t count = std::min(size, sliceBytes - used);
+          std::memcpy(buffer, slice.data() + used, count);
+          used += count;
+          buffer += count;
+          size -= count;
+        }
+      };
+      return ReadVolumePixels(type, std::nullopt, geometry, source, largeScan);
+    }
+  };
+  return std::visit(read, type);
+}
+
+/** The voxels of a stack (see UnreadScan::native). */
+NativeVoxels
+NativeVoxelsOfStack(const PictureStack & stack, StoredType type, const VolumeGeometry & geometry)
+{
+  const auto read = [=](const itk::ImageRegion<3> & region, void * buffer) {
+    std::vector<std::byte> slice(stack.GetSliceBytes());
+    auto * values = static_cast<std::byte *>(buffer);
+    const std::size_t rowBytes = region.GetSize(0) * SizeOf(type);
+    for (std::size_t n = 0; n < region.GetSize(2); ++n)
+    {
+      stack.Read(static_cast<std::size_t>(region.GetIndex(2)) + n, slice.data());
+      for (std::size_t row = 0; row < region.GetSize(1); ++row, values += rowBytes)
+      {
+        const std::size_t first = (static_cast<std::size_t>(region.GetIndex(1)) + row) * geometry.size[0];
+        const std::size_t offset = (first + static_cast<std::size_t>(region.GetIndex(0))) * SizeOf(type);
+        std::memcpy(values, slice.data() + offset, rowBytes);
+      }
+    }
+  };
+  const auto typeOf = [](auto stored) { return itk::ImageIOBase::MapPixelType<decltype(stored)>::CType; };
+  return { std::visit(typeOf, type), true, read };
+}
+
+} // namespace
+
+std::vector<fs::path>
+FindPictures(const fs::path & folder, bool followsLinks)
+{
+  std::vector<fs::path> pictures;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+  {
+    std::error_code entryError;
+    const fs::path & path = entry->path();
+    if (IsPicture(path) && path.filename().string()[0] != '.' && (followsLinks || !entry->is_symlink(entryError)) &&
+        entry->is_regular_file(entryError))
+    {
+      pictures.push_back(path);
+    }
+  }
+  if (pictures.empty())
+  {
+    return {};
+  }
+  const auto others = ListFiles(folder, followsLinks).paths;
+  const bool hasDicom = std::any_of(others.begin(), others.end(), [](const fs::path & path) {
+    return !IsPicture(path) && IsReadable(path) && ReadDicomHeader(path).has_value();
+  });
+  std::sort(pictures.begin(), pictures.end(), [](const fs::path & a, const fs::path & b) {
+    return ComesBefore(a.filename().string(), b.filename().string());
+  });
+  return hasDicom ? std::vector<fs::path>() : pictures;
+}
+
+UnreadScan
+OpenPictureStack(const std::vector<fs::path> & pictures, const fs::path & folder, const ScanReadOptions & options)
+{
+  FailIf(!options.voxelSize,
+         FailureKind::Usage,
+         "Cannot read the pictures in " + folder.string() +
+           " as slices: they do not tell how large their voxels are; give their size with ScanReadOptions::voxelSize.");
+  FailIf(options.frame.has_value(),
+         FailureKind::Usage,
+         "Cannot read a volume of several in " + folder.string() +
+           ": a stack of pictures is one; leave out ScanReadOptions::frame.");
+  std::vector<PictureHeader> headers(pictures.size());
+  ForEachOnThreads(pictures.size(), [&](std::size_t n) { headers[n] = ReadPictureHeader(pictures[n]); });
+  const PictureHeader & first = headers.front();
+  const StoredType type = FindType(first, pictures.front());
+  for (std::size_t n = 1; n < pictures.size(); ++n)
+  {
+    RequireSame(headers[n], pictures[n], first, pictures.front());
+  }
+  const VolumeGeometry geometry =
+    MakeUnplacedGeometry({ { first.width, first.height, pictures.size() } }, *options.voxelSize);
+  UnreadScan file;
+  Scan & scan = file.scan;
+  CheckGeometry(geometry, folder, "voxel size", options.onTilted, scan.notes);
+  scan.format = "pictures";
+  scan.encoding = PictureFormatOf(pictures.front());
+  scan.isOriented = false;
+  scan.files = pictures;
+  scan.image = NewVolumeImage(type, false, geometry);
+  scan.notes.push_back(
+    folder.string() + " holds " + Count(pictures.size(), "picture") +
+    ", which are taken for slices in the order of the numbers in their names, with axes to the left, "
+    "posterior and superior, so that left and right are a guess.");
+  if (const auto bits = static_cast<std::size_t>(first.bits); bits > 0 && bits != 8 * SizeOf(type))
+  {
+    scan.notes.push_back("The pictures hold values of " + std::to_string(first.bits) + " bits, which are read as " +
+                         std::to_string(8 * SizeOf(type)) + " bits, scaled to their range.");
+  }
+  const PictureStack stack(pictures, first, type);
+  file.findPlace = [=] {
+    const std::uintmax_t bytes = MemoryOfPixels(type, false, geometry.GetNumberOfVoxels());
+    if (bytes <= MemoryAllowance(options.maximumMemory))
+    {
+      return VoxelPlace::Memory;
+    }
+    RequireRoomForTemporaryFile(bytes, folder);
+    return VoxelPlace::TemporaryFile;
+  };
+  file.readVoxels = [=, findPlace = file.findPlace](Scan & read) {
+    const bool isLarge = findPlace() == VoxelPlace::TemporaryFile;
+    read.image = ReadStack(stack, type, geometry, isLarge ? folder : fs::path(), options.progress);
+    ReplaceNotFinite(folder, read);
+  };
+  file.native = NativeVoxelsOfStack(stack, type, geometry);
+  return file;
+}
+
+} // namespace rhombic
