@@ -9,6 +9,7 @@
 #include <spdlog/spdlog.h>
 
 #include <cstdio>
+#include <fstream>
 #include <unistd.h>
 
 namespace rhombic
@@ -24,6 +25,27 @@ Printable(std::string text)
   std::replace_if(
     text.begin(), text.end(), [](unsigned char letter) { return letter < ' ' || letter == 127; }, '?');
   return text;
+}
+
+/** Bytes that this process had read from disks, pages of mapped files included; 0 where the system does not tell. */
+double
+CountBytesFromDisk()
+{
+  std::ifstream file("/proc/self/io");
+  std::string name;
+  double bytes = 0.0;
+  while (file >> name >> bytes && name != "read_bytes:")
+  {}
+  return name == "read_bytes:" ? bytes : 0.0;
+}
+
+/** "40 s left". */
+std::string
+DescribeTimeLeft(double seconds)
+{
+  return seconds < 90.0     ? FormatFixed(seconds, 0) + " s left"
+         : seconds < 5400.0 ? FormatFixed(seconds / 60.0, 0) + " min left"
+                            : FormatFixed(seconds / 3600.0, 1) + " h left";
 }
 
 } // namespace
@@ -75,12 +97,20 @@ Console::Progress(const std::string & step, double fraction)
   if (step != m_Step)
   {
     this->AddTimeToStep();
+    m_LastLine = m_StepStart;
+    m_BytesAtStart = CountBytesFromDisk();
   }
   if (!m_IsTerminal)
   {
+    constexpr std::chrono::minutes betweenLines(1);
     if (m_Verbosity == Verbosity::Verbose && step != m_Step)
     {
       spdlog::info("{} ...", step);
+    }
+    else if (Clock::now() - m_LastLine > betweenLines)
+    {
+      spdlog::info("{}: {} %{}", Printable(step), percent, this->DescribePace(fraction));
+      m_LastLine = Clock::now();
     }
   }
   else
@@ -89,7 +119,8 @@ Console::Progress(const std::string & step, double fraction)
     const int filled = percent * width / 100;
     const auto bar =
       std::string(static_cast<std::size_t>(filled), '#') + std::string(static_cast<std::size_t>(width - filled), '.');
-    std::fprintf(stderr, "\r\033[K[%s] %3d %% %s", bar.c_str(), percent, step.c_str());
+    const std::string pace = step == m_Step ? this->DescribePace(fraction) : "";
+    std::fprintf(stderr, "\r\033[K[%s] %3d %% %s%s", bar.c_str(), percent, step.c_str(), pace.c_str());
     std::fflush(stderr);
   }
   m_Step = step;
@@ -105,6 +136,22 @@ Console::Finish()
     std::fflush(stderr);
   }
   m_Percent = -1;
+}
+
+std::string
+Console::DescribePace(double fraction) const
+{
+  constexpr double awhile = 5.0;      // s
+  constexpr double least = 0.02;      // of a step, before it tells anything
+  constexpr double worthSaying = 1e6; // bytes in a second
+  const double seconds = std::chrono::duration<double>(Clock::now() - m_StepStart).count();
+  if (seconds < awhile || fraction < least)
+  {
+    return "";
+  }
+  const double pace = (CountBytesFromDisk() - m_BytesAtStart) / seconds;
+  return (pace > worthSaying ? ", " + FormatFixed(pace / 1e6, 0) + " MB/s from disk" : "") + ", " +
+         DescribeTimeLeft(seconds * (1.0 - fraction) / fraction);
 }
 
 void

@@ -20,7 +20,9 @@ enum class Verbosity
 };
 
 /** \class Console
- * \brief Messages of the program on standard error: one progress bar on a terminal, plain lines elsewhere. */
+ * \brief Messages of the program on standard error: one progress bar on a terminal, plain lines elsewhere, of steps
+ * that take long one each minute. Both tell how much comes from the disk and the time left, once a step lasts a while.
+ */
 class Console
 {
 public:
@@ -54,6 +56,8 @@ private:
   Progress(const std::string & step, double fraction);
   void
   AddTimeToStep();
+  std::string
+  DescribePace(double fraction) const;
 
   using Clock = std::chrono::steady_clock;
 
@@ -62,6 +66,8 @@ private:
   std::string m_Step = "start";
   int m_Percent = -1;
   Clock::time_point m_StepStart = Clock::now();
+  Clock::time_point m_LastLine = Clock::now(); ///< without a terminal
+  double m_BytesAtStart = 0.0;                 ///< that came from the disk before the step
   std::vector<std::pair<std::string, double>> m_StepSeconds;
 };
 

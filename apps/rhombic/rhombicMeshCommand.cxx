@@ -1,10 +1,12 @@
 #include "rhombicCommands.h"
 #include "rhombicFailure.h"
+#include "rhombicMemoryPlan.h"
 #include "rhombicMeshScan.h"
 #include "rhombicScanOptions.h"
 #include "rhombicSurfaceOptions.h"
 
 #include <cmath>
+#include <iostream>
 
 namespace rhombic
 {
@@ -25,6 +27,7 @@ struct MeshOptions
   bool requiresWatertight = false;
   std::string colourBy;
   double minimumThickness = 0.0;
+  bool isDryRun = false;
 };
 
 /** A number of triangles, or a percentage of the triangles as extracted. */
@@ -98,6 +101,11 @@ Mesh(const MeshOptions & options, const CommandContext & context)
     return outputs;
   }
   const Events events = context.console->MakeEvents();
+  if (options.isDryRun)
+  {
+    std::cout << PlanMeshScan(settings, events);
+    return {};
+  }
   std::optional<SourceVolume> volume;
   const Preset preset = options.surfaces.GetPreset(settings.source, volume, events);
   options.scan.ApplyPreset(preset, settings.source);
@@ -152,6 +160,13 @@ AddMeshCommand(CommandSettings & command)
       "write no file with holes or other defects, but end with exit code 8; that triangles pass through each other is "
       "reported by --audit, and no reason not to write it" },
   };
+  static const SettingsTable<MeshOptions> run{
+    { "--dry-run",
+      &MeshOptions::isDryRun,
+      "print where voxels and lattice will be, slabs and passes, and the memory, triangles and time as estimates, and "
+      "stop; refused as the work would be",
+      OfKind(SettingKind::Run) },
+  };
   const auto options = std::make_shared<MeshOptions>();
   command.Add(ScanOptions::SourceTable(), options->scan);
   command.Add(threshold, *options);
@@ -161,6 +176,7 @@ AddMeshCommand(CommandSettings & command)
   command.Add(checks, *options);
   command.Add(ScanOptions::LatticeTable(), options->scan);
   command.Add(ScanOptions::SidecarTable(), options->scan);
+  command.Add(run, *options);
   return AddPipelineOption(command, [options](const CommandContext & context) { return Mesh(*options, context); });
 }
 

@@ -1,7 +1,10 @@
 #include "rhombicCommands.h"
 #include "rhombicFailure.h"
+#include "rhombicMemoryPlan.h"
 #include "rhombicResampleScan.h"
 #include "rhombicScanOptions.h"
+
+#include <iostream>
 
 namespace rhombic
 {
@@ -12,6 +15,7 @@ struct ResampleOptions
 {
   ScanOptions scan;
   std::string volume;
+  bool isDryRun = false;
 };
 
 std::vector<MadeFile>
@@ -31,6 +35,11 @@ Resample(const ResampleOptions & options, const CommandContext & context)
     AddOutputs(CheckResampleScan(settings), "", outputs);
     return outputs;
   }
+  if (options.isDryRun)
+  {
+    std::cout << PlanResampleScan(settings, context.console->MakeEvents());
+    return {};
+  }
   outputs = ResampleScan(settings, context.console->MakeEvents());
   NoteOutputs("volume", outputs, *context.console);
   return outputs;
@@ -47,11 +56,19 @@ AddResampleCommand(CommandSettings & command)
       "the lattice volume (.nrrd); when SCAN is one, the Cartesian volume (.nrrd, .nii, .nii.gz, .mha)",
       OfKind(SettingKind::Output) },
   };
+  static const SettingsTable<ResampleOptions> run{
+    { "--dry-run",
+      &ResampleOptions::isDryRun,
+      "print where voxels and lattice will be, slabs, and the memory and time as estimates, and stop; refused as the "
+      "work would be",
+      OfKind(SettingKind::Run) },
+  };
   const auto options = std::make_shared<ResampleOptions>();
   command.Add(ScanOptions::SourceTable(), options->scan);
   command.Add(table, *options);
   command.Add(ScanOptions::LatticeTable(), options->scan);
   command.Add(ScanOptions::SidecarTable(), options->scan);
+  command.Add(run, *options);
   return [options](const CommandContext & context) { return Resample(*options, context); };
 }
 

@@ -107,6 +107,33 @@ LoadSource(const ScanSource & source,
            std::optional<SourceVolume> volume,
            const Events & events);
 
+/** Slices of a scan at equal distances, that stand for all of them. */
+struct SampledSlices
+{
+  const ScanImage & image;
+  std::size_t step = 1;         ///< those of the image that are used: every one, or every other and so on
+  std::size_t slicesOfEach = 1; ///< slices of the scan for which one stands
+};
+
+/** The surfaces of requests, estimated. */
+struct MeshEstimate
+{
+  double triangles = 0.0;
+  SurfaceBytes bytes;
+};
+
+/** Estimates the surfaces of requests with isovalues from a part of a scan's slices.
+ * \param density of the lattice */
+MeshEstimate
+EstimateMesh(const SampledSlices & sample,
+             const std::vector<SurfaceRequest> & requests,
+             itk::FCCIsosurfaceMode mode,
+             double density);
+
+/** Whether surfaces can be made of a lattice in slabs. */
+bool
+MayBeInSlabs(const std::vector<SurfaceRequest> & requests);
+
 /** Throws Failure(Usage) for rules that fit none of the surfaces, where these are known without reading anything. */
 void
 CheckSelection(const SurfaceSelection & selection);

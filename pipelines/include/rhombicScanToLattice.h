@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace rhombic
 {
@@ -37,12 +38,27 @@ struct SurfaceBytes
   std::uintmax_t afterwards = 0; ///< while they are untangled and written, when the lattice is gone
 };
 
+/** How a lattice is made within the memory that is allowed. */
+struct LatticePlan
+{
+  std::uintmax_t scanBytes = 0;        ///< of the scan in memory, if they count
+  std::uintmax_t latticeBytes = 0;     ///< of the whole lattice, twice where it is smoothed
+  itk::SizeValueType planesOfSlab = 0; ///< 0 for a lattice that is whole
+  unsigned int slabs = 1;
+  std::uintmax_t peak = 0; ///< of scan, lattice or slab, and what is made beside a slab
+  SurfaceBytes surfaces;   ///< of surfaces made of a lattice in slabs
+};
+
 /** For a lattice that is made in slabs when the whole of it does not fit. */
 struct LatticeStream
 {
   std::function<SurfaceBytes()> findSurfaces; ///< what surfaces made of the lattice need; may be empty
-  SurfaceBytes surfaces;                      ///< the same, once the whole lattice was found not to fit
-  itk::ProcessObject::Pointer source;         ///< makes the slabs; null for a whole lattice
+  bool mayBeInSlabs = true;                   ///< otherwise it must fit
+  std::uintmax_t scanBytes = 0;               ///< of a scan that has no voxels yet: what it will take of the memory
+  bool onlyPlans = false;                     ///< nothing is made but the plan, and a lattice without samples
+
+  LatticePlan plan;
+  std::vector<itk::ProcessObject::Pointer> sources; ///< make the slabs, one behind the other; none for a whole lattice
 };
 
 /** A denoising written as `none`, `gaussian:SIGMA` or `edges:SIGMA,EDGE`. Throws Failure(Usage). */
@@ -63,9 +79,9 @@ CheckLatticeSettings(const LatticeSettings & settings);
  * would fit; and those of DenoiseScan().
  *
  * \param stream if not null, a lattice that does not fit is no failure: its buffer then holds as many planes as fit,
- * and its source, which \a stream keeps, makes others when they are asked for (itk::ForEachLoadedPart(), and
- * itk::FCCIsosurfaceFilter with the divisions of FindDivisions()). A note tells the number of slabs. Gaussian denoising
- * needs the whole lattice. */
+ * and its sources, which \a stream keeps, make others when they are asked for (itk::ForEachLoadedPart(), and
+ * itk::FCCIsosurfaceFilter with the divisions of FindDivisions()). Pages of a mapped scan are dropped behind each slab.
+ * A note tells the number of slabs. */
 FCCVolume
 ScanToLattice(const Scan & scan,
               const LatticeSettings & settings,

@@ -189,50 +189,6 @@ CountSlice(const TPixel * value, const itk::Size<3> & size, const Threshold & th
   return counts;
 }
 
-/** The memory that surfaces need, estimated from a part of the scan's slices. Extraction has two bits for each sample,
- * but for pages in which none is inside (itk::FCCSigns).
- * \param density relative to the default */
-SurfaceBytes
-EstimateMeshBytes(const Scan & scan,
-                  const std::vector<SurfaceRequest> & requests,
-                  itk::FCCIsosurfaceMode mode,
-                  double density)
-{
-  constexpr double bytesOfTriangle = 24.0;  // with its share of the points and their normals
-  constexpr double bytesWithSearch = 100.0; // while crossings are searched for
-  constexpr std::size_t mostSlices = 64;
-  constexpr std::size_t samplesOfPage = 50'000; // samples of the scan whose bits share a page of memory
-  const auto & size = GeometryOf(scan.image).GetLargestPossibleRegion().GetSize();
-  const std::size_t step = (size[2] + mostSlices - 1) / mostSlices;
-  const std::size_t rowsOfPage = 1 + samplesOfPage / size[0];
-  std::vector<SliceCounts> slices((size[2] + step - 1) / step);
-  const auto count = [&](const auto & image) {
-    for (const SurfaceRequest & request : requests)
-    {
-      ForEachInBlocks(slices.size(), 1, [&, threshold = request.GetThreshold()](std::size_t n) {
-        const auto * const values = image->GetBufferPointer() + n * step * size[1] * size[0];
-        const SliceCounts counts = CountSlice(values, size, threshold, rowsOfPage);
-        slices[n].crossings += counts.crossings;
-        slices[n].pages += counts.pages;
-      });
-    }
-  };
-  std::visit(count, scan.image);
-  SliceCounts sum;
-  for (const SliceCounts & counts : slices)
-  {
-    sum.crossings += counts.crossings;
-    sum.pages += counts.pages;
-  }
-  // A plane cuts as many edges along two axes, on average of its directions, as it has faces of voxels.
-  const double faces = static_cast<double>(sum.crossings * step);
-  const double triangles = faces * TrianglesPerFace(mode) * std::pow(density, 2.0 / 3.0);
-  const double samples = static_cast<double>(sum.pages * step) * static_cast<double>(rowsOfPage * size[0]);
-  const double bits = 0.25 * itk::FCCLattice::DefaultDensity * density * samples;
-  return { static_cast<std::uintmax_t>(triangles * bytesOfTriangle + bits),
-           static_cast<std::uintmax_t>(triangles * bytesWithSearch) };
-}
-
 LoadedSource
 PrepareLattice(FCCVolume volume, const ScanSource & source, const SurfaceSelection & selection, const Events & events)
 {
@@ -299,15 +255,14 @@ PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & sel
   loaded.requests = ResolveRequests(requests, scan.image);
   NoteThinBone(scan, loaded.requests, events);
   const Scan ordered = OrderAlongPatient(scan, source.lattice.maximumMemory);
-  const bool areAllParts = std::all_of(loaded.requests.begin(), loaded.requests.end(), [](const auto & request) {
-    return request.parts == SurfaceRequest::Parts::All; // others are found in the whole lattice
-  });
+  loaded.stream.mayBeInSlabs = MayBeInSlabs(loaded.requests);
   loaded.stream.findSurfaces = [&] {
-    const double density = source.lattice.density / itk::FCCLattice::DefaultDensity;
-    return EstimateMeshBytes(ordered, loaded.requests, selection.mode, density);
+    constexpr std::size_t mostSlices = 64;
+    const std::size_t depth = GeometryOf(ordered.image).GetLargestPossibleRegion().GetSize(2);
+    const std::size_t step = (depth + mostSlices - 1) / mostSlices;
+    return EstimateMesh({ ordered.image, step, step }, loaded.requests, selection.mode, source.lattice.density).bytes;
   };
-  loaded.lattice =
-    ScanToLattice(ordered, source.lattice, events, source.streams && areAllParts ? &loaded.stream : nullptr);
+  loaded.lattice = ScanToLattice(ordered, source.lattice, events, source.streams ? &loaded.stream : nullptr);
   loaded.stream.findSurfaces = nullptr; // it refers to what ends here
   if (!IsSlanted(ordered))
   {
@@ -318,6 +273,57 @@ PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & sel
 }
 
 } // namespace
+
+MeshEstimate
+EstimateMesh(const SampledSlices & sample,
+             const std::vector<SurfaceRequest> & requests,
+             itk::FCCIsosurfaceMode mode,
+             double density)
+{
+  constexpr double bytesOfTriangle = 24.0;      // with its share of the points and their normals
+  constexpr double bytesWithSearch = 100.0;     // while crossings are searched for
+  constexpr std::size_t samplesOfPage = 50'000; // samples of the scan whose bits share a page of memory
+  const auto & size = GeometryOf(sample.image).GetLargestPossibleRegion().GetSize();
+  const std::size_t rowsOfPage = 1 + samplesOfPage / size[0];
+  std::vector<SliceCounts> slices((size[2] + sample.step - 1) / sample.step);
+  const auto count = [&](const auto & image) {
+    for (const SurfaceRequest & request : requests)
+    {
+      ForEachInBlocks(slices.size(), 1, [&, threshold = request.GetThreshold()](std::size_t n) {
+        const auto * const values = image->GetBufferPointer() + n * sample.step * size[1] * size[0];
+        const SliceCounts counts = CountSlice(values, size, threshold, rowsOfPage);
+        slices[n].crossings += counts.crossings;
+        slices[n].pages += counts.pages;
+      });
+    }
+  };
+  std::visit(count, sample.image);
+  SliceCounts sum;
+  for (const SliceCounts & counts : slices)
+  {
+    sum.crossings += counts.crossings;
+    sum.pages += counts.pages;
+  }
+  // A plane cuts as many edges along two axes, on average of its directions, as it has faces of voxels.
+  const double relativeDensity = density / itk::FCCLattice::DefaultDensity;
+  const double faces = static_cast<double>(sum.crossings * sample.slicesOfEach);
+  const double samples =
+    static_cast<double>(sum.pages * sample.slicesOfEach) * static_cast<double>(std::min(rowsOfPage, size[1]) * size[0]);
+  MeshEstimate estimate;
+  estimate.triangles = faces * TrianglesPerFace(mode) * std::pow(relativeDensity, 2.0 / 3.0);
+  const double bits = 0.25 * density * samples; // two for each site, but for pages in which none is inside
+  estimate.bytes = { static_cast<std::uintmax_t>(estimate.triangles * bytesOfTriangle + bits),
+                     static_cast<std::uintmax_t>(estimate.triangles * bytesWithSearch) };
+  return estimate;
+}
+
+bool
+MayBeInSlabs(const std::vector<SurfaceRequest> & requests)
+{
+  return std::all_of(requests.begin(), requests.end(), [](const SurfaceRequest & request) {
+    return request.parts == SurfaceRequest::Parts::All; // others are found in the whole lattice
+  });
+}
 
 bool
 HasOwnOpacity(const SurfaceSelection & selection, const SceneSurface & surface)
@@ -360,9 +366,8 @@ LoadVolume(const ScanSource & source, const Events & events)
   events.Note(DescribeGrid(scan));
   if (IsMapped(scan.image))
   {
-    const bool isUnpacked = scan.format == "OME-Zarr";
-    events.Note(isUnpacked
-                  ? "the voxels were unpacked to a temporary file (in the folder TMPDIR) and are read from there where "
+    events.Note(PlaceOf(scan.image) == VoxelPlace::TemporaryFile
+                  ? "the voxels were put into a temporary file (in the folder TMPDIR) and are read from there where "
                     "they are needed, as they do not fit into the memory that is allowed"
                   : "the voxels stay in their file and are read where they are needed, as they would take more "
                     "than half of the memory that is allowed");

@@ -27,52 +27,61 @@ CountScanBytes(const Scan & scan, const LatticeSettings & settings)
            : std::visit(
                [](const auto & image) {
                  using Pixel = typename std::decay_t<decltype(*image)>::PixelType;
-                 return image->GetLargestPossibleRegion().GetNumberOfPixels() * sizeof(Pixel);
+                 return image->GetBufferedRegion().GetNumberOfPixels() * sizeof(Pixel);
                },
                scan.image);
 }
 
 /** Throws Failure(Memory) for a lattice that does not fit, naming a density that would. */
-template <typename TPixel>
 void
-RequireLatticeMemory(const itk::FCCImage<TPixel> & lattice, const Scan & scan, const LatticeSettings & settings)
+RequireLatticeMemory(const LatticePlan & plan, const LatticeSettings & settings)
 {
-  const unsigned int copies = settings.denoising.kind == Denoising::Kind::Gaussian ? 2 : 1;
-  const std::uintmax_t bytes = lattice.GetLargestPossibleRegion().GetNumberOfPixels() * sizeof(TPixel) * copies;
-  const std::uintmax_t scanBytes = CountScanBytes(scan, settings);
   const std::uintmax_t allowed = MemoryAllowance(settings.maximumMemory);
-  const double fitting = allowed > scanBytes ? 0.95 * settings.density * static_cast<double>(allowed - scanBytes) /
-                                                 static_cast<double>(bytes)
-                                             : 0.0;
-  RequireMemory(bytes + scanBytes,
+  const double fitting =
+    allowed > plan.scanBytes
+      ? 0.95 * settings.density * static_cast<double>(allowed - plan.scanBytes) / static_cast<double>(plan.latticeBytes)
+      : 0.0;
+  RequireMemory(plan.latticeBytes + plan.scanBytes,
                 settings.maximumMemory,
                 "The lattice",
                 fitting >= 0.001 ? "use a coarser lattice with --density " + FormatNumber(fitting, 2)
                                  : "crop the scan");
 }
 
-/** How many planes of a lattice are made at a time when the whole of it does not fit: all that do fit; 0 when the whole
- * fits, or not even a slab does. Throws Failure(Memory) when it is what is made of the lattice that does not fit. */
-template <typename TPixel>
+/** How many planes around a slab of a smoothed lattice are resampled for it. */
+template <typename TImage>
 itk::SizeValueType
-FindPlanesOfSlab(const itk::FCCImage<TPixel> & lattice,
-                 const Scan & scan,
-                 const LatticeSettings & settings,
-                 LatticeStream & stream)
+FindReach(TImage & smoothed, TImage & lattice)
 {
-  constexpr itk::SizeValueType around = 20;             // further planes of a slab
+  itk::ImageRegion<3> plane = smoothed.GetLargestPossibleRegion();
+  plane.SetIndex(2, plane.GetIndex(2) + static_cast<itk::IndexValueType>(plane.GetSize(2) / 2));
+  plane.SetSize(2, 1);
+  smoothed.SetRequestedRegion(plane);
+  smoothed.PropagateRequestedRegion();
+  return lattice.GetRequestedRegion().GetSize(2) - 1;
+}
+
+/** Plans how many planes of a lattice are made at a time when the whole of it does not fit: all that do fit. Throws
+ * Failure(Memory) when it is what is made of the lattice that does not fit, or not even a slab does. \param smoothed
+ * the lattice as it is used, which is \a lattice itself unless it is smoothed */
+template <typename TPixel>
+void
+PlanSlabs(itk::FCCImage<TPixel> & smoothed,
+          itk::FCCImage<TPixel> & lattice,
+          const LatticeSettings & settings,
+          LatticeStream & stream)
+{
   constexpr std::uintmax_t perSite = 2 * sizeof(float); // of extraction, see itk::FCCIsosurfaceFilter
+  const bool isSmoothed = &smoothed != &lattice;
+  const itk::SizeValueType around = 20 + (isSmoothed ? FindReach(smoothed, lattice) : 0); // further planes of a slab
   const itk::ImageRegion<3> & region = lattice.GetLargestPossibleRegion();
-  const std::uintmax_t scanBytes = CountScanBytes(scan, settings);
+  LatticePlan & plan = stream.plan;
   const std::uintmax_t allowed = MemoryAllowance(settings.maximumMemory);
-  if (region.GetNumberOfPixels() * sizeof(TPixel) + scanBytes <= allowed)
-  {
-    return 0;
-  }
-  const std::uintmax_t plane = region.GetSize(0) * region.GetSize(1) * (sizeof(TPixel) + perSite);
-  stream.surfaces = stream.findSurfaces ? stream.findSurfaces() : SurfaceBytes();
-  const auto [besideSlab, afterwards] = stream.surfaces;
-  const std::uintmax_t least = scanBytes + around * plane;
+  const std::uintmax_t plane =
+    region.GetSize(0) * region.GetSize(1) * (sizeof(TPixel) * (isSmoothed ? 2 : 1) + perSite);
+  plan.surfaces = stream.findSurfaces ? stream.findSurfaces() : SurfaceBytes();
+  const auto [besideSlab, afterwards] = plan.surfaces;
+  const std::uintmax_t least = plan.scanBytes + around * plane;
   if (afterwards > 0 && least + plane <= allowed)
   {
     RequireMemory(std::max(least + plane + besideSlab, afterwards),
@@ -81,15 +90,20 @@ FindPlanesOfSlab(const itk::FCCImage<TPixel> & lattice,
                   "use a coarser lattice with --density");
   }
   const std::uintmax_t planes = allowed > least + besideSlab ? (allowed - least - besideSlab) / plane : 0;
-  return std::min<itk::SizeValueType>(planes, region.GetSize(2));
+  plan.planesOfSlab = std::min<itk::SizeValueType>(planes, region.GetSize(2));
+  if (plan.planesOfSlab == 0)
+  {
+    RequireLatticeMemory(plan, settings);
+  }
+  plan.slabs = static_cast<unsigned int>((region.GetSize(2) + plan.planesOfSlab - 1) / plan.planesOfSlab);
+  plan.peak = least + besideSlab + plan.planesOfSlab * plane;
 }
 
-/** Makes the first \a planes of a filter's lattice, and leaves the others for later. */
-template <typename TFilter>
+/** Makes the first \a planes of a lattice, and leaves the others for later. */
+template <typename TPixel>
 void
-BeginStream(TFilter & filter, itk::SizeValueType planes)
+BeginStream(itk::FCCImage<TPixel> & lattice, itk::SizeValueType planes)
 {
-  auto & lattice = *filter.GetOutput();
   itk::ImageRegion<3> region = lattice.GetLargestPossibleRegion();
   region.SetSize(2, planes);
   lattice.SetRequestedRegion(region);
@@ -139,7 +153,31 @@ CheckSlantedScan(const LatticeSettings & settings)
   }
 }
 
-/** Runs a filter from a scan's image to the lattice. */
+/** Makes a lattice in slabs, as planned. */
+template <typename TPixel>
+void
+MakeSlabs(itk::FCCImage<TPixel> & lattice,
+          const Scan & scan,
+          const LatticeSettings & settings,
+          const Events & events,
+          LatticeStream & stream)
+{
+  const LatticePlan & plan = stream.plan;
+  events.Note(
+    "the lattice of " + DescribeBytes(plan.latticeBytes) + " is more than the " +
+    DescribeBytes(MemoryAllowance(settings.maximumMemory)) + " that are allowed; it is made in " +
+    Count(plan.slabs, "slab") + ", again for each pass over it" +
+    (plan.surfaces.afterwards > 0 ? "; the surface will take some " + DescribeBytes(plan.surfaces.afterwards) : ""));
+  if (stream.onlyPlans)
+  {
+    return;
+  }
+  stream.sources.front()->AddObserver(itk::EndEvent(),
+                                      [image = scan.image](const itk::EventObject &) { DropPages(image); });
+  BeginStream(lattice, plan.planesOfSlab);
+}
+
+/** Runs a filter from a scan's image to the lattice, and smooths the lattice by a Gaussian if that is asked for. */
 template <typename TFilter>
 FCCVolume
 Resample(TFilter & filter,
@@ -148,33 +186,45 @@ Resample(TFilter & filter,
          const Events & events,
          LatticeStream * stream)
 {
+  using LatticeType = typename TFilter::OutputImageType;
   CheckSize(filter);
-  const bool mayStream = stream != nullptr && settings.denoising.kind != Denoising::Kind::Gaussian;
-  const auto planes = mayStream ? FindPlanesOfSlab(*filter.GetOutput(), scan, settings, *stream) : 0;
-  typename TFilter::OutputImageType::Pointer lattice = filter.GetOutput();
-  if (planes > 0)
+  LatticeStream none;
+  LatticeStream & used = stream != nullptr ? *stream : none;
+  const bool isSmoothed = settings.denoising.kind == Denoising::Kind::Gaussian;
+  typename LatticeType::Pointer lattice = filter.GetOutput();
+  LatticePlan & plan = used.plan;
+  plan.scanBytes = std::max(used.scanBytes, CountScanBytes(scan, settings));
+  plan.latticeBytes = lattice->GetLargestPossibleRegion().GetNumberOfPixels() *
+                      sizeof(typename LatticeType::PixelType) * (isSmoothed ? 2 : 1);
+  plan.peak = plan.scanBytes + plan.latticeBytes;
+  const bool isInSlabs = stream != nullptr && used.mayBeInSlabs && plan.peak > MemoryAllowance(settings.maximumMemory);
+  if (isInSlabs)
   {
-    stream->source = &filter;
-    BeginStream(filter, planes);
-    events.Note(
-      "the lattice of " +
-      DescribeBytes(lattice->GetLargestPossibleRegion().GetNumberOfPixels() *
-                    sizeof(typename TFilter::OutputImageType::PixelType)) +
-      " is more than the " + DescribeBytes(MemoryAllowance(settings.maximumMemory)) +
-      " that are allowed; it is made in " + Count(FindDivisions(lattice), "slab") + ", again for each pass over it" +
-      (stream->surfaces.afterwards > 0 ? "; the surface will take some " + DescribeBytes(stream->surfaces.afterwards)
-                                       : ""));
+    used.sources = { &filter };
+    filter.SetReleaseDataFlag(isSmoothed);
+    const auto smoothed = std::get<typename LatticeType::Pointer>(
+      isSmoothed ? ConnectDenoising(lattice, settings.denoising, used.sources.emplace_back()) : FCCVolume(lattice));
+    PlanSlabs(*smoothed, *lattice, settings, used);
+    lattice = smoothed;
+    MakeSlabs(*lattice, scan, settings, events, used);
   }
-  else
+  else if (RequireLatticeMemory(plan, settings); !used.onlyPlans)
   {
     ObserveProgress(filter, "resampling", events);
-    RequireLatticeMemory(*lattice, scan, settings);
     filter.Update();
     lattice->DisconnectPipeline();
   }
   events.Note("lattice: " + FormatProduct(lattice->GetLargestPossibleRegion().GetSize()) + " sites, spacing " +
               DescribeSpacing(lattice->GetSpacing()));
-  return lattice;
+  const bool isDone = isInSlabs || used.onlyPlans || !isSmoothed;
+  const FCCVolume volume =
+    isDone ? FCCVolume(lattice) : DenoiseLattice(lattice, settings.denoising, settings.maximumMemory, events);
+  if (isSmoothed)
+  {
+    events.Note("smoothed by a Gaussian of " + FormatNumber(settings.denoising.sigma) +
+                " mm; --denoise none leaves it out");
+  }
+  return volume;
 }
 
 /** \param image the scan's image, or that image denoised */
@@ -270,17 +320,10 @@ ScanToLattice(const Scan & scan, const LatticeSettings & settings, const Events 
   {
     CheckSlantedScan(settings);
   }
-  const ScanImage image = DenoiseScan(scan.image, settings.denoising, settings.maximumMemory, events);
-  const FCCVolume volume =
-    std::visit([&](const auto & input) { return ResampleImage(*input, scan, settings, events, stream); }, image);
-  if (settings.denoising.kind == Denoising::Kind::Gaussian)
-  {
-    events.Note("smoothed by a Gaussian of " + FormatNumber(settings.denoising.sigma) +
-                " mm; --denoise none leaves it out");
-  }
-  return settings.denoising.kind == Denoising::Kind::Gaussian
-           ? DenoiseLattice(volume, settings.denoising, settings.maximumMemory, events)
-           : volume;
+  const bool isMade = stream == nullptr || !stream->onlyPlans;
+  const ScanImage image =
+    isMade ? DenoiseScan(scan.image, settings.denoising, settings.maximumMemory, events) : scan.image;
+  return std::visit([&](const auto & input) { return ResampleImage(*input, scan, settings, events, stream); }, image);
 }
 
 unsigned int

@@ -1,6 +1,9 @@
 #include "rhombicFailure.h"
 #include "rhombicMappedVoxels.h"
+#include "rhombicMemoryPlan.h"
 #include "rhombicMeshScan.h"
+#include "rhombicNIfTITestFile.h"
+#include "rhombicPhantom.h"
 #include "rhombicOMEZarrTestFolder.h"
 #include "rhombicResampleScan.h"
 #include "rhombicScanReader.h"
@@ -14,6 +17,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <set>
 #include <sstream>
 
 /** Volumes larger than the memory allowed. */
@@ -81,21 +85,56 @@ protected:
     return source;
   }
 
-  Outcome
-  Mesh(const fs::path & path, Bytes memory, itk::FCCIsosurfaceMode mode = itk::FCCIsosurfaceMode::Lean) const
+  rhombic::MeshScanSettings
+  SettingsOf(const fs::path & path, Bytes memory) const
   {
     rhombic::MeshScanSettings settings;
     settings.source = this->SourceOf(path, memory);
     settings.mesh = m_Folder.Path() / "mesh.ply";
-    settings.surfaces.mode = mode;
     rhombic::SurfaceRequest request;
     request.name = "ball";
     request.isovalue = 100.5;
     settings.surfaces.requests = { request };
+    return settings;
+  }
+
+  Outcome
+  Mesh(const fs::path & path, Bytes memory, itk::FCCIsosurfaceMode mode = itk::FCCIsosurfaceMode::Lean) const
+  {
+    rhombic::MeshScanSettings settings = this->SettingsOf(path, memory);
+    settings.surfaces.mode = mode;
+    return this->Mesh(settings);
+  }
+
+  Outcome
+  Mesh(const rhombic::MeshScanSettings & settings) const
+  {
     Outcome outcome;
     rhombic::MeshScan(settings, this->Collect(outcome.notes));
     outcome.bytes = ReadFile(settings.mesh);
     return outcome;
+  }
+
+  /** Expects the same bytes of a mesh in slabs as in memory; does nothing where there is no disk for temporary files.
+   */
+  void
+  ExpectSameInSlabs(rhombic::MeshScanSettings settings, Bytes memory) const
+  {
+    SCOPED_TRACE(settings.source.path);
+    const Outcome whole = this->Mesh(settings);
+    EXPECT_EQ(whole.notes.find("slab"), std::string::npos) << whole.notes;
+    settings.source.read.maximumMemory = settings.source.lattice.maximumMemory = memory;
+    try
+    {
+      const Outcome parts = this->Mesh(settings);
+      EXPECT_NE(parts.notes.find("slabs"), std::string::npos) << parts.notes;
+      EXPECT_EQ(parts.bytes == whole.bytes, true);
+    }
+    catch (const rhombic::Failure & failure)
+    {
+      const std::string sentence = failure.GetDescription();
+      EXPECT_NE(sentence.find("it is in memory itself"), std::string::npos) << sentence;
+    }
   }
 
   Outcome
@@ -154,6 +193,163 @@ TEST_F(LargeScan, EveryPixelTypeAndFormatIsMeshedInSlabs)
   {
     EXPECT_EQ(this->Mesh(path, Plenty).bytes == this->Mesh(path, 900'000).bytes, true) << path;
   }
+}
+
+/** The values of a ball as a NIfTI file has them, of any type, order of bytes, scaling and axes. */
+template <typename TStored>
+NIfTITestFile
+TallFile(int datatype, bool isBigEndian)
+{
+  const auto image = MakeTall<std::int16_t>();
+  const auto * const values = image->GetBufferPointer();
+  NIfTITestFile file;
+  file.isBigEndian = isBigEndian;
+  file.dimensions = { 3, 40, 40, 800, 1, 1, 1, 1 };
+  file.datatype = datatype;
+  file.bits = 8 * sizeof(TStored);
+  file.voxels = file.Values(std::vector<TStored>(values, values + 40 * 40 * 800));
+  return file;
+}
+
+TEST_F(LargeScan, AnyNIfTIIsMeshedInSlabs)
+{
+  const auto expectSame = [this](const NIfTITestFile & file, const std::string & name) {
+    const fs::path path = m_Folder.Path() / (name + ".nii");
+    std::ofstream(path, std::ios::binary) << file.Bytes();
+    this->ExpectSameInSlabs(this->SettingsOf(path, Plenty), 900'000);
+  };
+  expectSame(TallFile<std::uint8_t>(2, false), "uint8");
+  expectSame(TallFile<std::int16_t>(4, true), "int16-swapped");
+  expectSame(TallFile<std::int32_t>(8, true), "int32-swapped");
+  expectSame(TallFile<float>(16, true), "float-swapped");
+  expectSame(TallFile<double>(64, false), "double");
+  expectSame(TallFile<std::uint16_t>(512, true), "uint16-swapped");
+  expectSame(TallFile<std::uint32_t>(768, false), "uint32");
+  expectSame(TallFile<std::int64_t>(1024, false), "int64");
+  expectSame(TallFile<std::uint64_t>(1280, true), "uint64-swapped");
+  NIfTITestFile scaled = TallFile<std::int16_t>(4, false);
+  scaled.slope = 1.5;
+  scaled.intercept = -20;
+  expectSame(scaled, "scaled");
+}
+
+TEST_F(LargeScan, AnyOrderOfAxesIsMeshedInSlabs)
+{
+  NIfTITestFile file = TallFile<std::int16_t>(4, false);
+  const auto expectSame = [&](const std::array<double, 12> & affine, const std::string & name) {
+    file.sform = affine;
+    const fs::path path = m_Folder.Path() / (name + ".nii");
+    std::ofstream(path, std::ios::binary) << file.Bytes();
+    this->ExpectSameInSlabs(this->SettingsOf(path, Plenty), 900'000);
+  };
+  expectSame({ -1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0 }, "one-flipped");
+  expectSame({ 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0 }, "others-flipped");
+  const auto image = MakeTall<std::int16_t>(); // and now with the third axis first in the file
+  std::vector<std::int16_t> turned(40 * 40 * 800);
+  for (itk::ImageRegionIteratorWithIndex<itk::Image<std::int16_t, 3>> it(image, image->GetBufferedRegion());
+       !it.IsAtEnd();
+       ++it)
+  {
+    const auto & index = it.GetIndex();
+    turned[static_cast<std::size_t>((index[1] * 40 + index[0]) * 800 + index[2])] = it.Get();
+  }
+  file.dimensions = { 3, 800, 40, 40, 1, 1, 1, 1 };
+  file.voxels = file.Values(turned);
+  expectSame({ 0, 1, 0, 5, 0, 0, 1, 6, 1, 0, 0, 7 }, "permuted");
+  expectSame({ 0, -1, 0, 5, 0, 0, -1, 6, -1, 0, 0, 7 }, "permuted-and-flipped");
+}
+
+TEST_F(LargeScan, DenoisedAndDenserLatticesAreTheSameInSlabs)
+{
+  rhombic::MeshScanSettings settings = this->SettingsOf(this->Write<std::int16_t>("tall.nii"), Plenty);
+  settings.source.lattice.denoising = { rhombic::Denoising::Kind::Gaussian, 1.3, 0.0 };
+  this->ExpectSameInSlabs(settings, 1'500'000);
+  settings.source.lattice.density = 2.5;
+  this->ExpectSameInSlabs(settings, 4'000'000);
+  settings.source.lattice.denoising = {};
+  this->ExpectSameInSlabs(settings, 3'000'000);
+  settings.source.lattice.nested = true;
+  this->ExpectSameInSlabs(settings, 900'000);
+}
+
+TEST_F(LargeScan, AnyNumberOfSlabsGivesTheSameBytes)
+{
+  const fs::path path = this->Write<std::int16_t>("tall.nii");
+  const Outcome whole = this->Mesh(path, Plenty);
+  std::set<int> numbers;
+  for (Bytes memory = 1'900'000; numbers.empty() || *numbers.rbegin() < 64; memory -= memory / 12)
+  {
+    const Outcome parts = this->Mesh(path, memory);
+    const auto place = parts.notes.find(" slabs, again");
+    ASSERT_NE(place, std::string::npos) << parts.notes;
+    numbers.insert(std::stoi(parts.notes.substr(parts.notes.rfind(' ', place - 1))));
+    EXPECT_EQ(parts.bytes == whole.bytes, true) << memory;
+  }
+  EXPECT_LE(*numbers.begin(), 7);
+}
+
+TEST_F(LargeScan, ExtremeShapesAreTheSameInSlabs)
+{
+  const auto write = [this](const itk::Size<3> & size, const itk::Index<3> & middle) {
+    const auto image = itk::Image<std::uint8_t, 3>::New();
+    image->SetRegions(size);
+    image->Allocate();
+    for (itk::ImageRegionIteratorWithIndex<itk::Image<std::uint8_t, 3>> it(image, image->GetBufferedRegion());
+         !it.IsAtEnd();
+         ++it)
+    {
+      const itk::Offset<3> offset = it.GetIndex() - middle;
+      const double radius = std::hypot(static_cast<double>(offset[0]), offset[1], offset[2]);
+      it.Set(static_cast<std::uint8_t>(std::lround(100.0 + 90.0 * std::erf((9.0 - radius) / 2.0))));
+    }
+    const fs::path path = m_Folder.Path() / "shape.nii";
+    rhombic::WriteScan(rhombic::ScanImage(image), path);
+    return path;
+  };
+  this->ExpectSameInSlabs(this->SettingsOf(write({ { 8, 9, 6400 } }, { { 4, 4, 3201 } }), Plenty), 200'000);
+  // A slab with the planes around it is more than a flat lattice, which therefore has to fit.
+  const fs::path flat = write({ { 400, 400, 5 } }, { { 203, 199, 2 } });
+  const Outcome parts = this->Mesh(flat, 700'000);
+  EXPECT_NE(parts.notes.find("the voxels stay in their file"), std::string::npos) << parts.notes;
+  EXPECT_EQ(parts.bytes == this->Mesh(flat, Plenty).bytes, true);
+  EXPECT_THROW(this->Mesh(flat, 500'000), rhombic::Failure);
+}
+
+TEST_F(LargeScan, DicomFoldersAreMeshedInSlabs)
+{
+  rhombic::PhantomSettings phantom;
+  phantom.spacing = 3.0;
+  rhombic::WritePhantom(m_Folder.Path() / "phantom", phantom);
+  rhombic::MeshScanSettings settings = this->SettingsOf(m_Folder.Path() / "phantom/dicom", Plenty);
+  settings.surfaces.requests.front().isovalue = 1100.5; // a small surface
+  this->ExpectSameInSlabs(settings, 4'500'000);
+}
+
+TEST_F(LargeScan, PlansTellWhatWorkThenDoes)
+{
+  rhombic::MeshScanSettings settings = this->SettingsOf(this->Write<std::int16_t>("tall.nii"), 900'000);
+  const std::string plan = rhombic::PlanMeshScan(settings, rhombic::Events());
+  EXPECT_FALSE(fs::exists(settings.mesh));
+  EXPECT_NE(plan.find("which stay in their file"), std::string::npos) << plan;
+  EXPECT_NE(plan.find("made again for each of 4 passes"), std::string::npos) << plan;
+  EXPECT_NE(plan.find("of the 878.9 KiB that are allowed for volumes"), std::string::npos) << plan;
+  const auto begin = plan.find("in ", plan.find("lattice")) + 3;
+  const std::string slabs = plan.substr(begin, plan.find(" of", begin) - begin);
+  EXPECT_NE(this->Mesh(settings).notes.find(slabs + ", again"), std::string::npos) << slabs;
+
+  settings.source = this->SourceOf(settings.source.path, Plenty);
+  EXPECT_NE(rhombic::PlanMeshScan(settings, {}).find("2.4 MiB in memory"), std::string::npos);
+  settings.source = this->SourceOf(settings.source.path, 200'000);
+  EXPECT_THROW(rhombic::PlanMeshScan(settings, {}), rhombic::Failure);
+  settings.source = this->SourceOf(this->Write<std::int16_t>("tall.nii.gz"), 900'000);
+  EXPECT_THROW(rhombic::PlanMeshScan(settings, {}), rhombic::Failure);
+
+  rhombic::ResampleScanSettings resampling;
+  resampling.source = this->SourceOf(this->Write<std::int16_t>("tall.nii"), 800'000);
+  resampling.volume = m_Folder.Path() / "lattice.nrrd";
+  const std::string resamplingPlan = rhombic::PlanResampleScan(resampling, {});
+  EXPECT_NE(resamplingPlan.find("slabs of"), std::string::npos) << resamplingPlan;
+  EXPECT_FALSE(fs::exists(resampling.volume));
 }
 
 TEST_F(LargeScan, LatticesAreWrittenInSlabs)

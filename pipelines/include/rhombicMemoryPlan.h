@@ -1,0 +1,29 @@
+#ifndef rhombicMemoryPlan_h
+#define rhombicMemoryPlan_h
+
+#include "rhombicEvents.h"
+#include "rhombicMeshScan.h"
+#include "rhombicResampleScan.h"
+
+#include <string>
+
+namespace rhombic
+{
+
+/** \file
+ * What long work would take, found from the headers of a scan and, where it can be read in part, from some of its
+ * slices, within a second. Nothing is written. The texts are lines for a person: where the voxels will be, the lattice
+ * and its slabs, surfaces and files, memory and time. Triangles and time are estimates, which noise and other programs
+ * change. Both throw Failure as the work itself would before it begins, Memory for what does not fit. */
+
+/** MeshScan(). Surfaces are estimated for isovalues, and Otsu's threshold for those slices; not for labels. */
+std::string
+PlanMeshScan(const MeshScanSettings & settings, const Events & events);
+
+/** ResampleScan(). */
+std::string
+PlanResampleScan(const ResampleScanSettings & settings, const Events & events);
+
+} // namespace rhombic
+
+#endif

@@ -1,0 +1,275 @@
+#include "rhombicMemoryPlan.h"
+
+#include "rhombicIntensities.h"
+#include "rhombicMemoryBudget.h"
+#include "rhombicPatientAxes.h"
+#include "rhombicWording.h"
+
+#include "itkMultiThreaderBase.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace rhombic
+{
+namespace
+{
+
+/** A scan of which only headers were read, and where its voxels will be. */
+struct UnreadSource
+{
+  UnreadScan file;
+  VoxelPlace place = VoxelPlace::Memory;
+
+  std::uintmax_t
+  CountBytes() const
+  {
+    const auto count = [](const auto & image) {
+      return image->GetLargestPossibleRegion().GetNumberOfPixels() *
+             sizeof(typename std::decay_t<decltype(*image)>::PixelType);
+    };
+    return std::visit(count, file.scan.image);
+  }
+
+  std::uintmax_t
+  CountInMemory() const
+  {
+    return place == VoxelPlace::Memory ? this->CountBytes() : 0;
+  }
+};
+
+UnreadSource
+OpenSource(const ScanSource & source)
+{
+  UnreadSource unread;
+  unread.file = OpenScan(source.path, source.read);
+  if (source.check)
+  {
+    source.check(unread.file.scan);
+  }
+  if (unread.file.findPlace)
+  {
+    unread.place = unread.file.findPlace();
+  }
+  else
+  {
+    RequireMemory(unread.CountBytes(), source.read.maximumMemory, "Reading " + source.path.string());
+  }
+  return unread;
+}
+
+std::string
+DescribePlace(const UnreadSource & unread)
+{
+  const std::string bytes = DescribeBytes(unread.CountBytes());
+  switch (unread.place)
+  {
+    case VoxelPlace::File:
+      return bytes + ", which stay in their file and are read where they are needed";
+    case VoxelPlace::TemporaryFile:
+      return bytes + ", which are put into a temporary file in " + std::filesystem::temp_directory_path().string();
+    default:
+      return bytes + " in memory";
+  }
+}
+
+/** Slices of a scan at equal distances; null where it can't be read in part. */
+ScanImage
+ReadSomeSlices(const UnreadScan & file, std::size_t step)
+{
+  return std::visit(
+    [&](const auto & unread) -> ScanImage {
+      using Image = typename std::decay_t<decltype(*unread)>;
+      const bool canBeRead = file.native && file.native->areReadInPart && file.scan.numberOfFrames == 1 &&
+                             file.native->type == ComponentTypeOf(file.scan.image);
+      typename Image::Pointer sample;
+      if (canBeRead)
+      {
+        itk::ImageRegion<3> region = unread->GetLargestPossibleRegion();
+        itk::Size<3> size = region.GetSize();
+        size[2] = (size[2] + step - 1) / step;
+        sample = Image::New();
+        sample->SetRegions(size);
+        sample->Allocate();
+        region.SetSize(2, 1);
+        for (std::size_t n = 0; n < size[2]; ++n)
+        {
+          region.SetIndex(2, static_cast<itk::IndexValueType>(n * step));
+          file.native->read(region, sample->GetBufferPointer() + n * size[0] * size[1]);
+        }
+      }
+      return sample;
+    },
+    file.scan.image);
+}
+
+/** The lattice of a source, planned. */
+LatticePlan
+PlanLattice(const UnreadSource & unread, const LatticeSettings & settings, LatticeStream stream, const Events & events)
+{
+  stream.scanBytes = settings.maximumMemory > 0 ? unread.CountInMemory() : 0;
+  stream.onlyPlans = true;
+  ScanToLattice(OrderAlongPatient(unread.file.scan, settings.maximumMemory), settings, events, &stream);
+  return stream.plan;
+}
+
+/** "some 12 minutes". */
+std::string
+DescribeTime(double seconds)
+{
+  return seconds < 90.0     ? "some " + Count(static_cast<std::uintmax_t>(std::ceil(seconds)), "second")
+         : seconds < 5400.0 ? "some " + FormatFixed(seconds / 60.0, 0) + " minutes"
+                            : "some " + FormatFixed(seconds / 3600.0, 1) + " hours";
+}
+
+/** Estimated from 2048^3 voxels on two threads of a machine that others used, too (pipelines/README.md).
+ * \param passes over the lattice */
+double
+EstimateSeconds(const UnreadSource & unread, const LatticePlan & plan, double passes, double triangles)
+{
+  constexpr double voxelsOfThread = 35e6;     // that go onto the lattice in a second
+  constexpr double trianglesOfThread = 0.1e6; // that are extracted, untangled, written and checked in a second
+  const auto voxels =
+    static_cast<double>(GeometryOf(unread.file.scan.image).GetLargestPossibleRegion().GetNumberOfPixels());
+  const double threads = itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads();
+  return (voxels * (plan.slabs > 1 ? passes : 1.0) / voxelsOfThread + triangles / trianglesOfThread) / threads;
+}
+
+std::string
+DescribeLattice(const LatticePlan & plan, unsigned int passes)
+{
+  const std::string bytes = DescribeBytes(plan.latticeBytes);
+  return plan.slabs == 1 ? bytes + " in memory"
+                         : bytes + ", in " + Count(plan.slabs, "slab") + " of " + Count(plan.planesOfSlab, "plane") +
+                             (passes > 1 ? ", made again for each of " : ", in ") + Count(passes, "pass", "passes");
+}
+
+std::string
+DescribeMemory(std::uintmax_t bytes, std::uintmax_t limit)
+{
+  return "some " + DescribeBytes(bytes) + " of the " + DescribeBytes(MemoryAllowance(limit)) +
+         " that are allowed for volumes";
+}
+
+std::string
+DescribeUnwritten(const std::filesystem::path & output)
+{
+  return "dry run       " + output.string() + " was not made\n";
+}
+
+/** The plan of what is made of a lattice volume, which is read whole. */
+std::string
+PlanLatticeVolume(const ScanSource & source, const std::filesystem::path & output)
+{
+  const std::uintmax_t bytes = std::filesystem::file_size(source.path);
+  return "lattice       " + DescribeBytes(bytes) + " in memory\nmemory        " +
+         DescribeMemory(bytes, source.lattice.maximumMemory) + '\n' + DescribeUnwritten(output);
+}
+
+/** Bytes of a triangle in a file, with its share of the points; 0 where they depend on the surface. */
+double
+BytesOfTriangle(const std::filesystem::path & path)
+{
+  static const std::map<std::string, double> bytes{
+    { ".stl", 50.0 }, { ".ply", 27.0 }, { ".obj", 75.0 }, { ".glb", 24.0 }, { ".vtp", 37.0 }
+  };
+  const auto found = bytes.find(LowerCase(path.extension().string()));
+  return found == bytes.end() ? 0.0 : found->second;
+}
+
+/** How often the lattice is made in slabs: by extraction, of what is above and of what is below isovalues, and for the
+ * volume that each isosurface encloses. */
+unsigned int
+CountPasses(const MeshScanSettings & settings, const std::vector<SurfaceRequest> & requests)
+{
+  const auto isBelow = [](const SurfaceRequest & request) { return request.insideIsBelow; };
+  const auto below = std::count_if(requests.begin(), requests.end(), isBelow);
+  const unsigned int sides = (below > 0 ? 1 : 0) + (below < static_cast<std::ptrdiff_t>(requests.size()) ? 1 : 0);
+  const unsigned int ofSide = settings.surfaces.mode == itk::FCCIsosurfaceMode::Lean ? 3 : 2;
+  const bool isEnclosed = settings.source.lattice.denoising.kind == Denoising::Kind::None;
+  return sides * ofSide + (isEnclosed ? static_cast<unsigned int>(requests.size()) : 0);
+}
+
+/** The requests whose isovalues are numbers, or follow from some slices. */
+std::vector<SurfaceRequest>
+FindRequests(const MeshScanSettings & settings, const ScanImage & slices)
+{
+  const bool isRead = std::visit([](const auto & image) { return image.IsNotNull(); }, slices);
+  if (isRead && !settings.surfaces.requests.empty())
+  {
+    return ResolveIsovalues(settings.surfaces.requests, ComputeIntensities(slices));
+  }
+  return {};
+}
+
+} // namespace
+
+std::string
+PlanMeshScan(const MeshScanSettings & settings, const Events & events)
+{
+  CheckOutputs(CheckMeshScan(settings), settings.source, settings.surfaces, InputsOf(settings.colourBy));
+  if (IsFCCImageFile(settings.source.path))
+  {
+    return PlanLatticeVolume(settings.source, settings.mesh);
+  }
+  const UnreadSource unread = OpenSource(settings.source);
+  const std::vector<SurfaceRequest> & requests = settings.surfaces.requests;
+  constexpr std::size_t mostSlices = 64;
+  const std::size_t depth = GeometryOf(unread.file.scan.image).GetLargestPossibleRegion().GetSize(2);
+  const std::size_t step = (depth + mostSlices - 1) / mostSlices;
+  const ScanImage slices = ReadSomeSlices(unread.file, step);
+  const std::vector<SurfaceRequest> known = FindRequests(settings, slices);
+  MeshEstimate mesh;
+  if (!known.empty())
+  {
+    mesh = EstimateMesh({ slices, 1, step }, known, settings.surfaces.mode, settings.source.lattice.density);
+  }
+  std::string text = "voxels        " + DescribePlace(unread) + '\n';
+  std::uintmax_t volumes = unread.CountInMemory();
+  LatticePlan plan;
+  if (!requests.empty())
+  {
+    LatticeStream stream;
+    stream.findSurfaces = [&mesh] { return mesh.bytes; };
+    stream.mayBeInSlabs = MayBeInSlabs(requests);
+    plan = PlanLattice(unread, settings.source.lattice, stream, events);
+    volumes += plan.peak - plan.scanBytes;
+    text += "lattice       " + DescribeLattice(plan, CountPasses(settings, requests)) + '\n';
+  }
+  if (!known.empty())
+  {
+    const double bytes = mesh.triangles * BytesOfTriangle(settings.mesh);
+    text +=
+      "surfaces      some " + FormatNumber(mesh.triangles / 1e6, 2) + " million triangles" +
+      (bytes > 0.0 ? ", " + DescribeBytes(static_cast<std::uintmax_t>(bytes)) + " in " + settings.mesh.string() : "") +
+      '\n';
+    text += "time          " +
+            DescribeTime(EstimateSeconds(unread, plan, CountPasses(settings, requests), mesh.triangles)) + '\n';
+  }
+  else
+  {
+    text += "surfaces      not known before the voxels are read\n";
+  }
+  return text + "memory        " + DescribeMemory(volumes, settings.source.read.maximumMemory) +
+         (known.empty() ? "" : ", then " + DescribeBytes(mesh.bytes.afterwards) + " for the surfaces") + '\n' +
+         DescribeUnwritten(settings.mesh);
+}
+
+std::string
+PlanResampleScan(const ResampleScanSettings & settings, const Events & events)
+{
+  CheckOutputs(CheckResampleScan(settings), settings.source);
+  if (IsFCCImageFile(settings.source.path))
+  {
+    return PlanLatticeVolume(settings.source, settings.volume);
+  }
+  const UnreadSource unread = OpenSource(settings.source);
+  const LatticePlan plan = PlanLattice(unread, settings.source.lattice, {}, events);
+  return "voxels        " + DescribePlace(unread) + "\nlattice       " + DescribeLattice(plan, 1) + "\ntime          " +
+         DescribeTime(EstimateSeconds(unread, plan, 1.0, 0.0)) + "\nmemory        " +
+         DescribeMemory(unread.CountInMemory() + plan.peak - plan.scanBytes, settings.source.read.maximumMemory) +
+         '\n' + DescribeUnwritten(settings.volume);
+}
+
+} // namespace rhombic
