@@ -456,6 +456,14 @@ MeasureScale(const ScaleVolume & balls, const std::string & limit, const BenchSe
       throw Failure(FailureKind::Internal, "The meshes made in slabs and in memory differ.");
     }
   }
+  if (fits)
+  {
+    const Command flyingEdges{
+      FolderOfPrograms() / "rhombic-bare-script", volume, "20000.5", folder / "bare/balls.stl"
+    };
+    result.details["vtkFlyingEdges3D MiB"] = std::round(MeasurePeakMemory(flyingEdges, "Pss_Anon:"));
+    result.details["vtkFlyingEdges3D s"] = std::round(10.0 * TimeOf([&] { return RunCommand(flyingEdges); })) / 10.0;
+  }
   const auto measures = nlohmann::json::parse(std::ifstream(folder / "ours/balls.json"));
   const double measured = 1000.0 * measures.at(0).at("measures").at("volume_ml").get<double>();
   result.details["volume error %"] = std::round(1e4 * 100.0 * (measured / truth - 1.0)) / 1e4;
