@@ -12,7 +12,7 @@ namespace rhombic
 
 /** \file
  * What long work would take, found from the headers of a scan and, where it can be read in part, from some of its
- * slices, within a second. Nothing is written. The texts are lines for a person: where the voxels will be, the lattice
+ * slices, within seconds. Nothing is written. The texts are lines for a person: where the voxels will be, the lattice
  * and its slabs, surfaces and files, memory and time. Triangles and time are estimates, which noise and other programs
  * change. Both throw Failure as the work itself would before it begins, Memory for what does not fit. */
 

@@ -74,6 +74,15 @@ DescribePlace(const UnreadSource & unread)
   }
 }
 
+/** Every how many slices are read: 8 to 64 in all, of some 64 million voxels. */
+std::size_t
+FindStep(const itk::Size<3> & size)
+{
+  constexpr std::size_t voxels = std::size_t{ 1 } << 26, fewest = 8, most = 64;
+  const std::size_t slices = std::clamp(voxels / (size[0] * size[1]), fewest, most);
+  return (size[2] + slices - 1) / slices;
+}
+
 /** Slices of a scan at equal distances; null where it can't be read in part. */
 ScanImage
 ReadSomeSlices(const UnreadScan & file, std::size_t step)
@@ -196,11 +205,14 @@ std::vector<SurfaceRequest>
 FindRequests(const MeshScanSettings & settings, const ScanImage & slices)
 {
   const bool isRead = std::visit([](const auto & image) { return image.IsNotNull(); }, slices);
-  if (isRead && !settings.surfaces.requests.empty())
+  const std::vector<SurfaceRequest> & requests = settings.surfaces.requests;
+  const bool needsOtsu =
+    std::any_of(requests.begin(), requests.end(), [](const SurfaceRequest & request) { return !request.isovalue; });
+  if (isRead && needsOtsu)
   {
-    return ResolveIsovalues(settings.surfaces.requests, ComputeIntensities(slices));
+    return ResolveIsovalues(requests, ComputeIntensities(slices));
   }
-  return {};
+  return isRead ? requests : std::vector<SurfaceRequest>();
 }
 
 } // namespace
@@ -215,9 +227,7 @@ PlanMeshScan(const MeshScanSettings & settings, const Events & events)
   }
   const UnreadSource unread = OpenSource(settings.source);
   const std::vector<SurfaceRequest> & requests = settings.surfaces.requests;
-  constexpr std::size_t mostSlices = 64;
-  const std::size_t depth = GeometryOf(unread.file.scan.image).GetLargestPossibleRegion().GetSize(2);
-  const std::size_t step = (depth + mostSlices - 1) / mostSlices;
+  const std::size_t step = FindStep(GeometryOf(unread.file.scan.image).GetLargestPossibleRegion().GetSize());
   const ScanImage slices = ReadSomeSlices(unread.file, step);
   const std::vector<SurfaceRequest> known = FindRequests(settings, slices);
   MeshEstimate mesh;

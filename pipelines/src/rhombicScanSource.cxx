@@ -366,6 +366,7 @@ LoadVolume(const ScanSource & source, const Events & events)
   events.Note(DescribeGrid(scan));
   if (IsMapped(scan.image))
   {
+    DropPages(scan.image);
     events.Note(PlaceOf(scan.image) == VoxelPlace::TemporaryFile
                   ? "the voxels were put into a temporary file (in the folder TMPDIR) and are read from there where "
                     "they are needed, as they do not fit into the memory that is allowed"

@@ -13,14 +13,14 @@ fail() {
     exit 1
 }
 
-mesh() { # OUTPUT [MEMORY]
-    "$program" -q mesh "$work/phantom/dicom" -t 1100.5 --max-memory "${2:-4500K}" --no-sidecar -o "$1"
+mesh() { # OUTPUT [MEMORY]: in place of a subshell
+    exec "$program" -q mesh "$work/phantom/dicom" -t 1100.5 --max-memory "${2:-4500K}" --no-sidecar -o "$1"
 }
 
 "$program" -q phantom --spacing 3 -o "$work/phantom"
 
-mesh "$work/expected.ply"
-mesh "$work/whole.ply" 1G
+(mesh "$work/expected.ply")
+(mesh "$work/whole.ply" 1G)
 cmp "$work/expected.ply" "$work/whole.ply"
 
 RANDOM=7
@@ -37,7 +37,7 @@ for run in $(seq 30); do
     [ -z "$(ls "$work/out")" ] || fail "run $run left $(ls "$work/out")"
     [ -z "$(ls -A "$work/tmp")" ] || fail "run $run left $(ls -A "$work/tmp") for temporary files"
 done
-mesh "$work/out/mesh.ply"
+(mesh "$work/out/mesh.ply")
 cmp "$work/expected.ply" "$work/out/mesh.ply"
 
 truncate -s 1M "$work/disk.img"
@@ -45,11 +45,11 @@ mkfs.ext2 -q "$work/disk.img" 2> /dev/null && mount -o loop "$work/disk.img" "$w
 trap 'umount "$work/disk"' EXIT
 
 code=0
-TMPDIR=$work/disk mesh "$work/out/other.ply" 2> "$work/sentence" || code=$?
+(TMPDIR=$work/disk mesh "$work/out/other.ply") 2> "$work/sentence" || code=$?
 [ $code = 9 ] && grep -q "are free" "$work/sentence" || fail "a full folder of temporary files: $code, $(cat "$work/sentence")"
 [ ! -e "$work/out/other.ply" ] || fail "a mesh without room for its scan"
 dd if=/dev/zero of="$work/disk/filler" bs=1k 2> "$work/full" || true
 code=0
-mesh "$work/disk/mesh.ply" 2> "$work/sentence" || code=$?
+(mesh "$work/disk/mesh.ply") 2> "$work/sentence" || code=$?
 [ $code = 7 ] || fail "a full disk: $code, $(cat "$work/sentence")"
 [ "$(ls -A "$work/disk" | grep -v lost+found)" = filler ] || fail "a full disk holds $(ls -A "$work/disk")"

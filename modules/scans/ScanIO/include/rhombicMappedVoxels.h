@@ -38,9 +38,10 @@ RequireRoomForTemporaryFile(std::uintmax_t size, const std::filesystem::path & s
 void
 AllocateInTemporaryFile(const ScanImage & image, const std::filesystem::path & scan);
 
-/** Has the system drop those pages of a mapped image that are in memory, before it has to: for work that goes on
- * elsewhere in the image, so that they do not count as memory of the process or of its control group. Changed voxels
- * are kept. Without effect on other images. Thread safe. */
+/** Takes the pages of a mapped image that are in memory out of the process, and drops them if the file is larger than
+ * the free memory: for work that goes on elsewhere in the image, so that they do not count as memory of the process or
+ * of its control group. Changed voxels are kept. Without effect on other images. Not while another thread writes
+ * voxels. */
 void
 DropPages(const ScanImage & image);
 

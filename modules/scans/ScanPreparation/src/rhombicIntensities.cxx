@@ -1,6 +1,7 @@
 #include "rhombicIntensities.h"
 
 #include "rhombicFailure.h"
+#include "rhombicMappedVoxels.h"
 
 #include "rhombicForEachBlock.h"
 #include "itkHistogram.h"
@@ -102,11 +103,30 @@ MakeHistogram(const TPixel * values, std::size_t count, double lowest, double hi
   return histogram;
 }
 
+/** Called behind a part of the values. */
+using PartDone = std::function<void()>;
+
+/** FindRange() of one part of the values after the other. */
+template <typename TPixel>
+std::pair<TPixel, TPixel>
+FindRangeOfParts(const TPixel * values, std::size_t count, const PartDone & partDone)
+{
+  constexpr std::size_t part = std::size_t{ 1 } << 26;
+  std::pair<TPixel, TPixel> range{ std::numeric_limits<TPixel>::max(), std::numeric_limits<TPixel>::lowest() };
+  for (std::size_t begin = 0; begin < count; begin += part)
+  {
+    const auto [lowest, highest] = FindRange(values + begin, std::min(part, count - begin));
+    range = { std::min(range.first, lowest), std::max(range.second, highest) };
+    partDone();
+  }
+  return range;
+}
+
 template <typename TPixel>
 Intensities
-Compute(const TPixel * values, std::size_t count, bool findsOtsu)
+Compute(const TPixel * values, std::size_t count, bool findsOtsu, const PartDone & partDone)
 {
-  const auto [lowest, highest] = FindRange(values, count);
+  const auto [lowest, highest] = FindRangeOfParts(values, count, partDone);
   Intensities found;
   found.lowest = found.otsu = found.lowOtsu = found.lowestOtsu = found.highOtsu = static_cast<double>(lowest);
   found.highest = static_cast<double>(highest);
@@ -130,11 +150,11 @@ Compute(const TPixel * values, std::size_t count, bool findsOtsu)
 
 template <typename TVolume>
 Intensities
-ComputeOfAny(const TVolume & volume, bool findsOtsu)
+ComputeOfAny(const TVolume & volume, bool findsOtsu, const PartDone & partDone)
 {
   return std::visit(
-    [findsOtsu](const auto & image) {
-      return Compute(image->GetBufferPointer(), image->GetBufferedRegion().GetNumberOfPixels(), findsOtsu);
+    [&](const auto & image) {
+      return Compute(image->GetBufferPointer(), image->GetBufferedRegion().GetNumberOfPixels(), findsOtsu, partDone);
     },
     volume);
 }
@@ -144,13 +164,13 @@ ComputeOfAny(const TVolume & volume, bool findsOtsu)
 Intensities
 ComputeIntensities(const ScanImage & image, bool findsOtsu)
 {
-  return ComputeOfAny(image, findsOtsu);
+  return ComputeOfAny(image, findsOtsu, [&image] { DropPages(image); });
 }
 
 Intensities
 ComputeIntensities(const FCCVolume & volume, bool findsOtsu)
 {
-  return ComputeOfAny(volume, findsOtsu);
+  return ComputeOfAny(volume, findsOtsu, [] {});
 }
 
 } // namespace rhombic

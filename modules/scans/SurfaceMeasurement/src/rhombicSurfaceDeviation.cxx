@@ -1,6 +1,7 @@
 #include "rhombicSurfaceDeviation.h"
 
 #include "rhombicForEachBlock.h"
+#include "rhombicMappedVoxels.h"
 
 #include "itkSliceStack.h"
 
@@ -91,6 +92,13 @@ public:
     {
       m_Stack.emplace(GeometryOf(scan.image), scan.sliceOrigins);
     }
+  }
+
+  /** Has pages of a mapped scan dropped: the surface goes on elsewhere. */
+  void
+  DropPages() const
+  {
+    rhombic::DropPages(m_Scan.image);
   }
 
   /** The smallest distance between samples along an axis, in mm. */
@@ -330,6 +338,7 @@ MeasureDistances(const itk::TriangleSurface & surface,
 {
   std::vector<float> distances(count);
   constexpr std::size_t blockSize = 2048;
+  const std::size_t blocksOfPart = 1 + count / blockSize / 32;
   ForEachBlock(count, blockSize, [&](std::size_t begin, std::size_t end) {
     std::vector<PointType> points;
     for (std::size_t n = begin; n < end; ++n)
@@ -338,6 +347,10 @@ MeasureDistances(const itk::TriangleSurface & surface,
     }
     const auto found = FindDistances(field, points, isovalue);
     std::copy(found.begin(), found.end(), distances.begin() + static_cast<std::ptrdiff_t>(begin));
+    if (begin / blockSize % blocksOfPart == 0)
+    {
+      field.DropPages();
+    }
   });
   return distances;
 }

@@ -1,6 +1,7 @@
 #include "rhombicSurfaceMeasures.h"
 
 #include "rhombicForEachBlock.h"
+#include "rhombicMappedVoxels.h"
 
 #include "detail/itkForEachLoadedPart.h"
 #include "itkTriangleSurfaceInterior.h"
@@ -170,6 +171,7 @@ MeasureSurface(const itk::TriangleSurface & surface, const Scan & scan)
     else
     {
       slices = std::visit([&](const auto & image) { return SumInterior(surface, *image, planes); }, scan.image);
+      DropPages(scan.image);
     }
   });
   double volume = 0.0;
@@ -199,10 +201,15 @@ CountVoxelVolume(const Scan & scan, const Threshold & threshold)
   const auto count = [&](const auto & image) {
     const auto & size = image->GetLargestPossibleRegion().GetSize();
     const std::size_t sliceSize = size[0] * size[1];
+    const std::size_t slicesOfPart = 1 + (std::size_t{ 1 } << 26) / sliceSize; // of a mapped scan in memory
     ForEachInBlocks(inside.size(), 1, [&](std::size_t slice) {
       const auto * const begin = image->GetBufferPointer() + slice * sliceSize;
       inside[slice] = static_cast<double>(std::count_if(
         begin, begin + sliceSize, [&](auto value) { return threshold.IsInside(static_cast<double>(value)); }));
+      if (slice % slicesOfPart == 0)
+      {
+        DropPages(scan.image);
+      }
     });
   };
   std::visit(count, scan.image);

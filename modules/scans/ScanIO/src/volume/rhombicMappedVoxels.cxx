@@ -15,8 +15,11 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <memory>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace rhombic
 {
@@ -68,19 +71,70 @@ public:
     return m_IsShared;
   }
 
-  /** Drops them from memory; those that differ from the file are kept, or written to it if they are shared. */
+  /** Takes them out of the process; those that were changed and are not shared stay. Pages of a file that is larger
+   * than the free memory are dropped by the system, too, as they could not stay until they are read again. */
   void
   Drop() const
   {
-    if (m_IsShared)
+    for (const auto & [begin, size] : this->FindUnchanged())
     {
-      fdatasync(m_File);
+      madvise(m_Address + begin, size, MADV_DONTNEED);
     }
-    madvise(m_Address, m_Size, MADV_PAGEOUT);
-    posix_fadvise(m_File, 0, 0, POSIX_FADV_DONTNEED); // those that were read ahead
+    if (m_Size > FreeMemory())
+    {
+      if (m_IsShared)
+      {
+        fdatasync(m_File); // only pages that are on the disk can be dropped
+      }
+      posix_fadvise(m_File, 0, 0, POSIX_FADV_DONTNEED);
+    }
   }
 
 private:
+  /** Runs of pages that are in memory as the file has them: their first byte and their size. None where the system does
+   * not tell which these are. */
+  std::vector<std::pair<std::size_t, std::size_t>>
+  FindUnchanged() const
+  {
+    if (m_IsShared)
+    {
+      return { { 0, m_Size } };
+    }
+    constexpr std::uint64_t isPresent = std::uint64_t{ 1 } << 63, isOfFile = std::uint64_t{ 1 } << 61;
+    constexpr std::size_t atOnce = 1 << 16; // pages
+    const auto pageSize = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    const std::size_t count = (m_Size + pageSize - 1) / pageSize;
+    std::vector<std::pair<std::size_t, std::size_t>> runs;
+    std::vector<std::uint64_t> entries(std::min(count, atOnce));
+    std::ifstream pagemap("/proc/self/pagemap", std::ios::binary);
+    pagemap.seekg(static_cast<std::streamoff>(reinterpret_cast<std::uintptr_t>(m_Address) / pageSize * 8));
+    for (std::size_t first = 0; first < count; first += atOnce)
+    {
+      const std::size_t part = std::min(atOnce, count - first);
+      if (!pagemap.read(reinterpret_cast<char *>(entries.data()), static_cast<std::streamsize>(part * 8)))
+      {
+        return {};
+      }
+      for (std::size_t n = 0; n < part; ++n)
+      {
+        const std::size_t begin = (first + n) * pageSize;
+        if ((entries[n] & isPresent) == 0 || (entries[n] & isOfFile) == 0)
+        {
+          continue;
+        }
+        if (!runs.empty() && runs.back().first + runs.back().second == begin)
+        {
+          runs.back().second += pageSize;
+        }
+        else
+        {
+          runs.emplace_back(begin, pageSize);
+        }
+      }
+    }
+    return runs;
+  }
+
   const int m_File;
   const std::size_t m_Size;
   const bool m_IsShared;
