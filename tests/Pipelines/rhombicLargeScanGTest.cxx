@@ -386,7 +386,11 @@ TEST_F(LargeScan, MappedVoxelsAreThoseThatAreRead)
     EXPECT_EQ(one.GetDirection(), other.GetDirection());
     EXPECT_EQ(one.GetOrigin(), other.GetOrigin());
     EXPECT_EQ(one.GetBufferedRegion(), other.GetBufferedRegion());
-    EXPECT_TRUE(std::equal(one.GetBufferPointer(), one.GetBufferPointer() + 40 * 40 * 800, other.GetBufferPointer()));
+    for (int use = 0; use < 2; ++use)
+    {
+      EXPECT_TRUE(std::equal(one.GetBufferPointer(), one.GetBufferPointer() + 40 * 40 * 800, other.GetBufferPointer()));
+      rhombic::DropPages(mapped.image); // keeps the value that took the place of no number
+    }
     other.FillBuffer(0.0f);
   }
   EXPECT_EQ(before == ReadFile(path), true) << "the file was changed";
