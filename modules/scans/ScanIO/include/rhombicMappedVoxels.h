@@ -25,6 +25,7 @@ enum class VoxelPlace
 bool
 IsMapped(const ScanImage & image);
 
+/** The same, and which file it is. */
 VoxelPlace
 PlaceOf(const ScanImage & image);
 
