@@ -221,8 +221,12 @@ TEST(CartesianSurfaces, TetrahedraMatchLinearFieldsExactly)
     gradient = { -0.3, -0.5, -0.7 };
     return 15.1 - 0.3 * p[0] - 0.5 * p[1] - 0.7 * p[2];
   });
-  for (const char * name :
-       { "marching-tetrahedra", "bcc-tetrahedra", "marching-cubes-cubic", "marching-tetrahedra-cubic" })
+  for (const char * name : { "marching-tetrahedra",
+                             "bcc-tetrahedra",
+                             "bcc-octahedra",
+                             "bcc-hexahedra",
+                             "marching-cubes-cubic",
+                             "marching-tetrahedra-cubic" })
   {
     const auto surface = GetComparedMethod(name).prepare(plane, cube, 1.0).extract();
     EXPECT_LT(ComputeSurfaceErrors(*surface, NearestOnField(plane, 1.0), everywhere).maximumDistance, 2e-4) << name;

@@ -27,7 +27,7 @@ IsInside(unsigned int pattern, unsigned int corner)
 
 TYPED_TEST(FCCCellCases, CellsAreConvexPolyhedraOfSitesAndStoredEdges)
 {
-  const itk::FCCCell & cell = TypeParam::Cell;
+  const itk::LatticeCell & cell = TypeParam::Cell;
   EXPECT_EQ(cell.numberOfCorners + cell.numberOfFaces, cell.numberOfEdges + 2) << "Euler's formula";
   std::map<EdgePair, int> sides;
   for (unsigned int face = 0; face < cell.numberOfFaces; ++face)
@@ -64,7 +64,7 @@ TYPED_TEST(FCCCellCases, CellsAreConvexPolyhedraOfSitesAndStoredEdges)
 // and passes each cut edge once; all other sides of triangles are inner ones.
 TYPED_TEST(FCCCellCases, TrianglesSpanTheSegmentsOfTheFaces)
 {
-  const itk::FCCCell & cell = TypeParam::Cell;
+  const itk::LatticeCell & cell = TypeParam::Cell;
   for (unsigned int pattern = 0; pattern < TypeParam::Cases.cases.size(); ++pattern)
   {
     const auto & found = TypeParam::Cases.cases[pattern];
@@ -137,7 +137,7 @@ TEST(FCCOctahedraCases, HaveTheTrianglesOfTheirKinds)
 
 TEST(FCCParallelepipedCases, ConnectSitesAcrossShortDiagonals)
 {
-  const itk::FCCCell & cell = Parallelepiped::Cell;
+  const itk::LatticeCell & cell = Parallelepiped::Cell;
   EXPECT_EQ(cell.GetEdgeTypes(), 0b101010) << "(1, 1, 0), (1, 0, 1) and (0, 1, 1)";
   for (unsigned int a = 0; a < cell.numberOfCorners; ++a)
   {

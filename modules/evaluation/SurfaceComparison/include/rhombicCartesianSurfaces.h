@@ -66,6 +66,17 @@ SampleOnBCC(const ReferenceField & field, const Vector3 & origin, const std::arr
 itk::TriangleSurface::Pointer
 MarchTetrahedra(const TetrahedraGrid & grid);
 
+/** The octahedra of four tetrahedra of a grid of SampleOnBCC() about each long edge of its even sites, marched as
+ * wholes; cells that stick out of the box are left out. Points are those that MarchTetrahedra() has on the cells'
+ * edges. The clusters of H. Carr, T. Theussl, T. Moeller, "Isosurfaces on optimal regular samples" (2003), as we read
+ * them. */
+itk::TriangleSurface::Pointer
+MarchBCCOctahedra(const TetrahedraGrid & grid);
+
+/** As MarchBCCOctahedra(), with the hexahedra of six tetrahedra about each short edge along (1, 1, 1). */
+itk::TriangleSurface::Pointer
+MarchBCCHexahedra(const TetrahedraGrid & grid);
+
 } // namespace rhombic
 
 #endif

@@ -41,7 +41,7 @@ struct ComparedMethod
   std::function<PreparedMethod(const ReferenceField & field, const FieldBox & box, double density)> prepare;
 };
 
-/** The Cartesian methods, the five modes on FCC, and six tetrahedra on BCC. */
+/** The Cartesian methods, the five modes on FCC, and tetrahedra, octahedra and hexahedra on BCC. */
 const std::vector<ComparedMethod> &
 GetComparedMethods();
 

@@ -55,6 +55,7 @@ OnFCC(ExtractionMode mode)
           } };
 }
 
+template <itk::TriangleSurface::Pointer (*TMarch)(const TetrahedraGrid &)>
 PreparedMethod
 PrepareBCC(const ReferenceField & field, const FieldBox & box, double density)
 {
@@ -65,7 +66,7 @@ PrepareBCC(const ReferenceField & field, const FieldBox & box, double density)
   auto grid = std::make_shared<TetrahedraGrid>(
     SampleOnBCC(field, box.lower, { sizeAlong(0), sizeAlong(1), sizeAlong(2) }, spacing));
   const auto samples = std::count_if(grid->values.begin(), grid->values.end(), [](float v) { return !std::isnan(v); });
-  return { static_cast<itk::SizeValueType>(samples), [grid] { return MarchTetrahedra(*grid); } };
+  return { static_cast<itk::SizeValueType>(samples), [grid] { return TMarch(*grid); } };
 }
 
 itk::TriangleSurface::Pointer
@@ -114,7 +115,9 @@ GetComparedMethods()
     OnCartesian("marching-cubes-cubic", WithCubicPoints<RunFlyingEdges>),
     OnCartesian("marching-tetrahedra", RunTetrahedra),
     OnCartesian("marching-tetrahedra-cubic", WithCubicPoints<RunTetrahedra>),
-    { "bcc-tetrahedra", "BCC", PrepareBCC },
+    { "bcc-tetrahedra", "BCC", PrepareBCC<MarchTetrahedra> },
+    { "bcc-octahedra", "BCC", PrepareBCC<MarchBCCOctahedra> },
+    { "bcc-hexahedra", "BCC", PrepareBCC<MarchBCCHexahedra> },
     OnFCC(ExtractionMode::Parallelepipeds),
     OnFCC(ExtractionMode::Tetrahedra),
     OnFCC(ExtractionMode::Octahedra),

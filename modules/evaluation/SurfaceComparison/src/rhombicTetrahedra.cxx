@@ -1,11 +1,10 @@
 #include "rhombicCartesianSurfaces.h"
 
 #include "rhombicForEachBlock.h"
-#include "detail/itkPositionArithmetic.h"
+#include "rhombicGridSurface.h"
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 namespace rhombic
 {
@@ -17,8 +16,7 @@ using IntegerPoint = std::array<int, 3>;
 /** A corner of a tetrahedron: the cell's first site, and which of the three steps lead from there to the corner. */
 struct Corner
 {
-  IntegerPoint point;
-  float value;
+  GridSurface::Corner site;
   unsigned int steps; ///< a bit for each
 };
 
@@ -27,6 +25,7 @@ class TetrahedraMarcher
 public:
   explicit TetrahedraMarcher(const TetrahedraGrid & grid)
     : m_Grid(grid)
+    , m_Surface(grid)
   {}
 
   itk::TriangleSurface::Pointer
@@ -46,27 +45,22 @@ public:
         }
       }
     }
-    return m_Surface;
+    return m_Surface.GetSurface();
   }
 
 private:
   Corner
   CornerOf(const IntegerPoint & first, unsigned int steps) const
   {
-    Corner corner{ first, TetrahedraGrid::NoSite, steps };
-    bool isInBox = true;
+    Corner corner{ { first, TetrahedraGrid::NoSite }, steps };
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
       for (unsigned int step = 0; step < 3; ++step)
       {
-        corner.point[axis] += (steps >> step & 1U) * m_Grid.steps[step][axis];
+        corner.site.point[axis] += (steps >> step & 1U) * m_Grid.steps[step][axis];
       }
-      isInBox = isInBox && corner.point[axis] >= 0 && corner.point[axis] < m_Grid.size[axis];
     }
-    if (isInBox)
-    {
-      corner.value = m_Grid.values[m_Grid.GetOffset(corner.point)];
-    }
+    corner.site.value = m_Surface.ValueAt(corner.site.point);
     return corner;
   }
 
@@ -95,11 +89,11 @@ private:
     unsigned int inside = 0;
     for (unsigned int n = 0; n < 4; ++n)
     {
-      if (std::isnan(corners[n].value))
+      if (std::isnan(corners[n].site.value))
       {
         return;
       }
-      if (corners[n].value >= 0.0F)
+      if (corners[n].site.value >= 0.0F)
       {
         isRightHanded = isRightHanded != (n != inside);
         std::swap(corners[n], corners[inside++]);
@@ -126,32 +120,20 @@ private:
   void
   AddTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, bool isRightHanded)
   {
-    m_Surface->GetTriangles().push_back(isRightHanded ? itk::TriangleSurface::TriangleType{ a, b, c }
-                                                      : itk::TriangleSurface::TriangleType{ a, c, b });
+    m_Surface.AddTriangle(a, isRightHanded ? b : c, isRightHanded ? c : b);
   }
 
-  /** The point on an edge; made when it is first asked for. */
   std::uint32_t
   PointOn(const Corner & a, const Corner & b)
   {
     const bool isForwards = a.steps < b.steps; // steps of one corner of an edge contain those of the other
     const Corner & begin = isForwards ? a : b;
     const Corner & end = isForwards ? b : a;
-    const auto next = static_cast<std::uint32_t>(m_Surface->GetNumberOfPoints());
-    const auto [found, isNew] = m_Points.emplace(8 * m_Grid.GetOffset(begin.point) + (begin.steps ^ end.steps), next);
-    if (isNew)
-    {
-      constexpr double margin = 1e-4;
-      const double t = std::clamp<double>(begin.value / (double{ begin.value } - end.value), margin, 1.0 - margin);
-      const Vector3 point = Mix(m_Grid.GetPosition(begin.point), m_Grid.GetPosition(end.point), t);
-      m_Surface->GetPoints().push_back(itk::ToPoint(point));
-    }
-    return found->second;
+    return m_Surface.PointBetween(begin.site, end.site, (begin.steps ^ end.steps) - 1);
   }
 
   const TetrahedraGrid & m_Grid;
-  itk::TriangleSurface::Pointer m_Surface = itk::TriangleSurface::New();
-  std::unordered_map<std::size_t, std::uint32_t> m_Points; ///< of edges
+  GridSurface m_Surface;
 };
 
 } // namespace

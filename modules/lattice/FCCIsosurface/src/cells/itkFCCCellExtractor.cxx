@@ -57,7 +57,7 @@ public:
   {
     for (SizeValueType word = 0; m_Exists && word < m_Words; ++word)
     {
-      WordType corners[FCCCell::MaximumCorners];
+      WordType corners[LatticeCell::MaximumCorners];
       WordType any = 0;
       WordType all = ~WordType{ 0 };
       for (unsigned int corner = 0; corner < TKind::Cell.numberOfCorners; ++corner)
@@ -83,8 +83,8 @@ private:
   SizeValueType m_Begin{ 0 };
   SizeValueType m_End;
   bool m_Exists{ true };
-  const WordType * m_Rows[FCCCell::MaximumCorners];
-  IndexValueType m_Shift[FCCCell::MaximumCorners];
+  const WordType * m_Rows[LatticeCell::MaximumCorners];
+  IndexValueType m_Shift[LatticeCell::MaximumCorners];
 };
 
 /** Finds the vertex ids of the cells of one kind whose anchors are in one row. */
@@ -96,7 +96,7 @@ public:
   {
     for (unsigned int edge = 0; edge < TKind::Cell.numberOfEdges; ++edge)
     {
-      const FCCCell::Edge & found = TKind::Cell.edges[edge];
+      const LatticeCell::Edge & found = TKind::Cell.edges[edge];
       const SiteType & step = TKind::Cell.corners[found.start];
       const FCCStepTarget start(signs, j, k, step);
       m_Shift[edge] = start.shift;
@@ -116,8 +116,8 @@ public:
   }
 
 private:
-  FCCCutEdges::Row m_Rows[FCCCell::MaximumEdges];
-  IndexValueType m_Shift[FCCCell::MaximumEdges];
+  FCCCutEdges::Row m_Rows[LatticeCell::MaximumEdges];
+  IndexValueType m_Shift[LatticeCell::MaximumEdges];
 };
 
 /** The types of the edges of a scheme's cells, as bits. */
