@@ -1,3 +1,4 @@
+#include "rhombicFailure.h"
 #include "rhombicJSONFile.h"
 #include "rhombicLatticeToSurfaces.h"
 #include "rhombicScanToLattice.h"
@@ -5,6 +6,8 @@
 #include "rhombicRunBenchmark.h"
 #include "rhombicReadScan.h"
 #include "rhombicSurfaceFinish.h"
+#include "rhombicSurfaceDeviation.h"
+#include "rhombicSurfaceMeasures.h"
 #include "rhombicSurfaceIO.h"
 #include "rhombicTableRemoval.h"
 #include "rhombicTextTable.h"
@@ -15,7 +18,9 @@
 
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <optional>
 #include <sstream>
 #include <thread>
 
@@ -37,7 +42,37 @@ struct Options
   std::vector<std::string> modes;
   unsigned int threads = std::max(1U, std::thread::hardware_concurrency());
   std::string json;
+  std::string scans; ///< folder of the page's scans
+  std::string page;
 };
+
+constexpr Mode allModes[]{ Mode::Lean, Mode::Fine, Mode::Tetrahedra, Mode::Octahedra, Mode::Parallelepipeds };
+
+/** A surface of the page, of a scan in the folder of scans. */
+struct PageSurface
+{
+  const char * scan;
+  double isovalue;
+};
+
+constexpr PageSurface pageSurfaces[]{ { "ct_head_ge8800_dicom", 500.5 },
+                                      { "ct_head_ge8800_dicom", 1150.5 },
+                                      { "ct_mr_dicom2stl_nifti/ct_example.nii.gz", -300.5 },
+                                      { "ct_mr_dicom2stl_nifti/ct_example.nii.gz", 300.5 },
+                                      { "ct_mr_dicom2stl_nifti/mri_t1_example.nii.gz", 150.5 },
+                                      { "frog_labels_metaimage/HeadMRVolume.mhd", 50.5 },
+                                      { "nifti_orientations_48/ASR.nii.gz", 30.5 },
+                                      { "nifti_awkward/avg152T1_LR_nifti.nii.gz", 100.5 },
+                                      { "ct_body_totalseg_nifti/example_ct_sm.nii.gz", 150.5 },
+                                      { "ct_body_totalseg_nifti/example_ct.nii.gz", -300.5 },
+                                      { "ct_body_totalseg_nifti/example_ct.nii.gz", 250.5 },
+                                      { "ct_body_totalseg_nifti/ct_aorta_cropped.nii.gz", 150.5 },
+                                      { "pet_slope_per_slice_dicom_rle", 2000.5 },
+                                      { "ct_head_tilt_varspacing_dicom_rle", -300.5 },
+                                      { "ct_head_tilt_varspacing_dicom_rle", 300.5 },
+                                      { "ct_body_totalseg_dicom_j2k", 200.5 },
+                                      { "ct_chest_lidc0314_dicom_jpegls", 250.5 },
+                                      { "mr_head_t1_defaced_dicom_j2k", 60.5 } };
 
 /** A folder for files that are written only to be read back. */
 class ScratchFolder
@@ -106,18 +141,37 @@ ToJSON(const itk::TriangleSurfaceAudit & audit)
            { "volume", audit.volume } };
 }
 
-/** One surface in one mode: audited as a file, simplified, audited again. */
-nlohmann::json
-Judge(const FCCVolume & lattice, const Scan & scan, double isovalue, Mode mode, const Options & options)
+double
+SpacingOf(const FCCVolume & lattice)
+{
+  return std::visit([](const auto & image) { return MeanSpacingOf(*image); }, lattice);
+}
+
+const itk::ImageBase<3> *
+GridOf(const Scan & scan)
+{
+  return IsSlanted(scan) ? nullptr : &GeometryOf(scan.image);
+}
+
+/** A surface as `rhombic mesh` makes it, without finishing. */
+itk::TriangleSurface::Pointer
+MakeSurface(const FCCVolume & lattice, const Scan & scan, double isovalue, Mode mode)
 {
   SurfaceRequest request;
   request.name = "surface";
   request.isovalue = isovalue;
-  const auto * const grid = IsSlanted(scan) ? nullptr : &GeometryOf(scan.image);
-  const double spacing = std::visit([](const auto & image) { return MeanSpacingOf(*image); }, lattice);
-  const auto surface = itk::TriangleSurface::New();
-  surface->Graft(LatticeToSurfaces(lattice, { request }, mode, {}, grid).front().surface);
-  RefineSurface(*surface, {}, spacing, "surface", {});
+  auto surface = itk::TriangleSurface::New();
+  surface->Graft(LatticeToSurfaces(lattice, { request }, mode, {}, GridOf(scan)).front().surface);
+  RefineSurface(*surface, {}, SpacingOf(lattice), "surface", {});
+  return surface;
+}
+
+/** One surface in one mode: audited as a file, simplified, audited again. */
+nlohmann::json
+Judge(const FCCVolume & lattice, const Scan & scan, double isovalue, Mode mode, const Options & options)
+{
+  const double spacing = SpacingOf(lattice);
+  const auto surface = MakeSurface(lattice, scan, isovalue, mode);
   const ScratchFolder folder;
   auto start = std::chrono::steady_clock::now();
   const auto before = AuditFile(*surface, folder);
@@ -180,6 +234,59 @@ ToRow(const nlohmann::json & result)
            Fixed(result["simplification_seconds"], 1) };
 }
 
+/** A row of the page: one surface in one mode, as its file has it. */
+std::string
+PageRow(const FCCVolume & lattice, const Scan & scan, const PageSurface & wanted, Mode mode)
+{
+  const auto surface = MakeSurface(lattice, scan, wanted.isovalue, mode);
+  const auto audit = AuditFile(*surface, ScratchFolder());
+  Threshold threshold;
+  threshold.isovalue = wanted.isovalue;
+  const IsosurfaceVolume volume = EstimateIsosurfaceVolume(lattice, threshold, audit.area, GridOf(scan));
+  const SurfaceDeviation deviation = ComputeDeviation(*surface, scan, itk::SeparableKernel::CubicBSpline, threshold);
+  std::ostringstream row;
+  row << "| " << wanted.scan << " | " << Fixed(wanted.isovalue, 1) << " | " << NameOf(mode) << " | " << audit.triangles
+      << " | " << Verdict(ToJSON(audit)) << " | " << audit.intersections.crossingPairs
+      << (audit.intersections.isSampled ? " in a sample" : "") << " | " << Fixed(audit.volume / 1000.0, 2) << " | "
+      << Fixed(100.0 * volume.GetErrorOf(audit.volume), 2) << " ± " << Fixed(100.0 * volume.GetRelativeUncertainty(), 2)
+      << " | " << Fixed(deviation.mean, 3) << " | " << Fixed(deviation.percentile95, 3) << " | "
+      << Fixed(deviation.maximum, 3) << " |\n";
+  return row.str();
+}
+
+/** All surfaces of the page, in all modes. */
+void
+WritePage(const Options & options)
+{
+  UseThreads(options.threads);
+  std::ostringstream page;
+  page << "# Whether surfaces of scans can be trusted\n\n"
+          "`rhombic-trust --scans SCANS --page pipelines/comparison/TRUST.md` makes this page.\n"
+          "[Benchmarks](../../tests/benchmarks/README.md) explain the columns.\n\n"
+          "| scan | isovalue | mode | triangles | file | crossings | volume ml | volume error % | mean mm | 95 % mm | "
+          "max mm |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+  std::string read;
+  std::optional<Scan> scan;
+  std::optional<FCCVolume> lattice;
+  for (const PageSurface & wanted : pageSurfaces)
+  {
+    if (read != wanted.scan)
+    {
+      lattice.reset();
+      scan = ReadScan(fs::path(options.scans) / wanted.scan);
+      lattice = ScanToLattice(*scan, {}, {});
+      read = wanted.scan;
+    }
+    for (const Mode mode : allModes)
+    {
+      const std::string row = PageRow(*lattice, *scan, wanted, mode);
+      std::cerr << row;
+      page << row;
+    }
+  }
+  std::ofstream(options.page) << page.str();
+}
+
 void
 Run(const Options & options)
 {
@@ -208,7 +315,7 @@ Run(const Options & options)
   nlohmann::json report{ { "results", nlohmann::json::array() } };
   for (const double isovalue : options.isovalues)
   {
-    for (const Mode mode : { Mode::Lean, Mode::Fine, Mode::Tetrahedra, Mode::Octahedra, Mode::Parallelepipeds })
+    for (const Mode mode : allModes)
     {
       const bool isChosen = std::any_of(options.modes.begin(), options.modes.end(), [mode](std::string name) {
         name[0] = static_cast<char>(std::toupper(name[0]));
@@ -237,8 +344,14 @@ main(int argc, char ** argv)
   Options options;
   CLI::App app{ "Whether surfaces of a scan are watertight as files, in every mode, before and after simplification",
                 "rhombic-trust" };
-  app.add_option("--scan", options.scan, "anything that rhombic reads")->required();
-  app.add_option("-t,--threshold", options.isovalues, "isovalue; repeatable")->required()->allow_extra_args(false);
+  auto * const scan = app.add_option("--scan", options.scan, "anything that rhombic reads");
+  auto * const isovalues = app.add_option("-t,--threshold", options.isovalues, "isovalue; repeatable");
+  scan->needs(isovalues);
+  isovalues->needs(scan)->allow_extra_args(false);
+  auto * const scans = app.add_option("--scans", options.scans, "instead of --scan: folder of the scans of a page");
+  auto * const page = app.add_option("--page", options.page, "Markdown file of all surfaces of these scans");
+  scans->needs(page)->excludes(scan);
+  page->needs(scans);
   app.add_flag("--remove-table", options.removesTable, "the scan is a CT in HU: its table is removed");
   app.add_option("--mode", options.modes, "only this mode; repeatable")->allow_extra_args(false);
   app.add_option("--share", options.share, "triangles kept by simplification, in %")->capture_default_str();
@@ -246,5 +359,11 @@ main(int argc, char ** argv)
     ->capture_default_str();
   app.add_option("--threads", options.threads, "number of threads")->capture_default_str();
   app.add_option("--json", options.json, "also write a report");
-  return RunBenchmark(app, argc, argv, [&options] { Run(options); });
+  return RunBenchmark(app, argc, argv, [&options] {
+    if (options.scan.empty() && options.page.empty())
+    {
+      throw Failure(FailureKind::Usage, "No scan is named; use --scan with -t, or --scans with --page.");
+    }
+    options.page.empty() ? Run(options) : WritePage(options);
+  });
 }
