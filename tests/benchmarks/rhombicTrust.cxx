@@ -70,9 +70,7 @@ constexpr PageSurface pageSurfaces[]{ { "ct_head_ge8800_dicom", 500.5 },
                                       { "pet_slope_per_slice_dicom_rle", 2000.5 },
                                       { "ct_head_tilt_varspacing_dicom_rle", -300.5 },
                                       { "ct_head_tilt_varspacing_dicom_rle", 300.5 },
-                                      { "ct_body_totalseg_dicom_j2k", 200.5 },
-                                      { "ct_chest_lidc0314_dicom_jpegls", 250.5 },
-                                      { "mr_head_t1_defaced_dicom_j2k", 60.5 } };
+                                      { "ct_body_totalseg_dicom_j2k", 200.5 } };
 
 /** A folder for files that are written only to be read back. */
 class ScratchFolder
@@ -234,8 +232,8 @@ ToRow(const nlohmann::json & result)
            Fixed(result["simplification_seconds"], 1) };
 }
 
-/** A row of the page: one surface in one mode, as its file has it. */
-std::string
+/** A row of the page: one surface in one mode, as its file has it; and whether it bounds a solid. */
+std::pair<std::string, bool>
 PageRow(const FCCVolume & lattice, const Scan & scan, const PageSurface & wanted, Mode mode)
 {
   const auto surface = MakeSurface(lattice, scan, wanted.isovalue, mode);
@@ -251,7 +249,7 @@ PageRow(const FCCVolume & lattice, const Scan & scan, const PageSurface & wanted
       << Fixed(100.0 * volume.GetErrorOf(audit.volume), 2) << " ± " << Fixed(100.0 * volume.GetRelativeUncertainty(), 2)
       << " | " << Fixed(deviation.mean, 3) << " | " << Fixed(deviation.percentile95, 3) << " | "
       << Fixed(deviation.maximum, 3) << " |\n";
-  return row.str();
+  return { row.str(), audit.BoundsSolid() };
 }
 
 /** All surfaces of the page, in all modes. */
@@ -260,11 +258,15 @@ WritePage(const Options & options)
 {
   UseThreads(options.threads);
   std::ostringstream page;
-  page << "# Whether surfaces of scans can be trusted\n\n"
-          "`rhombic-trust --scans SCANS --page pipelines/comparison/TRUST.md` makes this page.\n"
-          "[Benchmarks](../../tests/benchmarks/README.md) explain the columns.\n\n"
-          "| scan | isovalue | mode | triangles | file | crossings | volume ml | volume error % | mean mm | 95 % mm | "
-          "max mm |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+  page
+    << "# Whether surfaces of scans can be trusted\n\n"
+       "`rhombic-trust --scans SCANS --page pipelines/comparison/TRUST.md` makes this page.\n"
+       "[Benchmarks](../../tests/benchmarks/README.md) explain the columns. Scans of more than 100 slices of 256 x 256 "
+       "are left\nout, as one of them takes as long as all others; `--scan` measures them.\n\n"
+       "| scan | isovalue | mode | triangles | file | crossings | volume ml | volume error % | mean mm | 95 % mm | "
+       "max mm |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+  unsigned int rows = 0;
+  unsigned int solids = 0;
   std::string read;
   std::optional<Scan> scan;
   std::optional<FCCVolume> lattice;
@@ -279,11 +281,14 @@ WritePage(const Options & options)
     }
     for (const Mode mode : allModes)
     {
-      const std::string row = PageRow(*lattice, *scan, wanted, mode);
+      const auto [row, isSolid] = PageRow(*lattice, *scan, wanted, mode);
       std::cerr << row;
       page << row;
+      ++rows;
+      solids += isSolid ? 1 : 0;
     }
   }
+  page << "\nWatertight and without crossings: " << solids << " of " << rows << ".\n";
   std::ofstream(options.page) << page.str();
 }
 
