@@ -12,8 +12,9 @@ namespace itk
  * iterations, after Taubin, Zhang and Golub, ECCV 1996), which keeps waves that are longer than about iterations / 2
  * edges: pits, steps of slices and bumps go, and tubes keep their radius. The curves where walls meet are filtered
  * along themselves. Then walls and their curves move along their normals until each label has its volume again, or the
- * volume that \a volumes gives: no label lacks a layer thicker than a thousandth of the largest move in the direction
- * in which it is least. Points where curves meet or walls touch stay.
+ * volume that \a volumes gives: within 0.001 %, and within 0.01 % if triangles that met were put back; or it lacks a
+ * layer of a thousandth of the largest move in the direction in which that is least. Points where curves meet or walls
+ * touch stay.
  *
  * No point moves farther than maximumMove from where it is at the call, or out of the ellipsoid of halfAxes. Where
  * triangles would turn by 155 degrees or more, lose more than 99 hundredths of their area, or meet others elsewhere

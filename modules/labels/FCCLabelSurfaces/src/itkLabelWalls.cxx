@@ -51,7 +51,7 @@ LabelWalls::ComputeVolumes() const
   std::vector<double> volumes(1);
   SumInOrder(
     this->GetTriangleLabels().size(),
-    [this](std::size_t n) { return FindVolumeOfTriangle(*this, n); },
+    [this, origin = FindOrigin(*this)](std::size_t n) { return FindVolumeOfTriangle(*this, n, origin); },
     [&](std::size_t n, double volume) {
       const auto & [front, back] = this->GetTriangleLabels()[n];
       volumes.resize(std::max(volumes.size(), std::size_t{ back } + 1));

@@ -16,53 +16,85 @@ namespace
 
 constexpr unsigned int MostCorrections = 16;
 constexpr double SmallestLayer = 1e-3;             // to correct a volume by, of the largest move
+constexpr double VolumeTolerance = 1e-5;           // share of volumes that are restored
+constexpr double ToleranceAgain = 1e-4;            // the same after a few points were put back
 constexpr double ShareForVolumes = 0.1;            // of the largest error of simplification
 constexpr TriangleLimits WallLimits{ -0.9, 0.01 }; // the sides of a pit turn by much more than a right angle
 
-/** Moves walls along their normals until each label has its volume, or points are as far as they may go. Fixed points
- * stay. This is one stage of the progress. */
+/** The points that layers move, ascending: those of walls between labels of different layers. Fixed points stay. */
+std::vector<std::uint32_t>
+FindPointsToMove(const LabelWalls & walls, const std::vector<double> & layers, const PointStrata & strata)
+{
+  std::vector<std::uint8_t> isMoved(walls.GetNumberOfPoints());
+  for (std::size_t id = 0; id < walls.GetNumberOfTriangles(); ++id)
+  {
+    const auto & [front, back] = walls.GetTriangleLabels()[id];
+    if (layers[front] != layers[back])
+    {
+      for (const std::uint32_t point : walls.GetTriangles()[id])
+      {
+        isMoved[point] = strata.strata[point] != Stratum::Fixed ? 1 : 0;
+      }
+    }
+  }
+  return FindMarked(isMoved);
+}
+
+/** Where layers move a point of walls: as far as the triangles at the point sweep the layers' volume. */
+TriangleSurface::PointType
+MoveByLayers(const LabelWalls & walls,
+             const TrianglesOfPoints & fans,
+             const std::vector<double> & layers,
+             std::uint32_t point)
+{
+  PositionType way{};
+  double area = 0.0;
+  double sum = 0.0; // of the squared layers
+  fans.VisitTriangles(point, [&](std::uint32_t id) {
+    const PositionType normal = AreaVector(CornersOf(walls, walls.GetTriangles()[id]));
+    const auto & [front, back] = walls.GetTriangleLabels()[id];
+    const double layer = layers[back] - layers[front];
+    way = Along(way, normal, layer);
+    area += Length(normal);
+    sum += layer * layer * Length(normal);
+  });
+  return BoundedMoves::Move(walls.GetPoints()[point], sum > 0.0 ? std::min(2.0 / area, sum / Dot(way, way)) : 0.0, way);
+}
+
+/** Moves walls along their normals until each label has its volume, or points are as far as they may go: in each round
+ * only the walls of labels that do not have it yet. Fixed points stay. This is one stage of the progress. */
 void
 RestoreVolumes(const LabelWalls & walls,
                const std::vector<double> & wanted,
+               double tolerance,
                const TrianglesOfPoints & fans,
                const PointStrata & strata,
                BoundedMoves & moves,
                rhombic::StagedProgress & progress,
                double stageEnd)
 {
-  progress.Begin(stageEnd, MostCorrections * walls.GetNumberOfPoints());
-  LabelVolumes volumes(wanted);
-  std::vector<double> last(wanted.size(), std::numeric_limits<double>::infinity());
+  progress.Begin(stageEnd, MostCorrections);
+  LabelVolumes volumes(wanted, tolerance);
+  LabelSizes sizes(walls, wanted.size());
+  std::vector<double> last(wanted.size());
   const auto isMovable = [least = SmallestLayer * moves.GetBound().GetLeast()](double layer, double before) {
-    return std::abs(layer) > least && std::abs(layer) < 0.9 * std::abs(before); // clearly thinner than before
+    return std::abs(layer) > least &&
+           (before == 0.0 || std::abs(layer) < 0.9 * std::abs(before)); // clearly thinner than before
   };
   for (unsigned int n = 0; n < MostCorrections; ++n)
   {
-    const std::vector<double> & layers = volumes.FindLayers(walls);
+    const std::vector<double> & layers = volumes.FindLayers(sizes);
     if (!std::inner_product(layers.begin(), layers.end(), last.begin(), false, std::logical_or<>(), isMovable))
     {
       break;
     }
     last = layers;
-    moves.Step(
-      [&](SizeValueType point) {
-        PositionType way{};
-        double area = 0.0;
-        double sum = 0.0; // of the squared layers
-        fans.VisitTriangles(point, [&](std::uint32_t id) {
-          const PositionType normal = AreaVector(CornersOf(walls, walls.GetTriangles()[id]));
-          const auto & [front, back] = walls.GetTriangleLabels()[id];
-          const double layer = layers[back] - layers[front];
-          way = Add(way, { layer * normal[0], layer * normal[1], layer * normal[2] });
-          area += Length(normal);
-          sum += layer * layer * Length(normal);
-        });
-        // As far as the triangles at the point sweep the layers' volume.
-        const bool isMoved = sum > 0.0 && strata.strata[point] != Stratum::Fixed;
-        return BoundedMoves::Move(
-          walls.GetPoints()[point], isMoved ? std::min(2.0 / area, sum / Dot(way, way)) : 0.0, way);
-      },
-      progress);
+    const auto points = FindPointsToMove(walls, layers, strata);
+    const auto triangles = moves.FindTrianglesAt(points);
+    moves.StepSome(points, triangles, [&](std::uint32_t point) { return MoveByLayers(walls, fans, layers, point); });
+    sizes.Update(walls, triangles);
+
+    progress.Completed(1);
   }
 }
 
@@ -98,12 +130,12 @@ RelaxLabelWalls(LabelWalls & walls,
   const PointStrata strata = FindStrata(walls, fans);
   BoundedMoves moves(walls, fans, MoveBound(settings), WallLimits);
   SmoothSheets(walls, fans, strata, settings.iterations, moves, progress, 0.5);
-  RestoreVolumes(walls, wanted, fans, strata, moves, progress, 0.7);
+  RestoreVolumes(walls, wanted, VolumeTolerance, fans, strata, moves, progress, 0.7);
   const auto restored = walls.GetPoints();
   moves.PutBackMeeting(progress, 0.8);
   if (const auto putBack = walls.GetPoints(); putBack != restored)
   {
-    RestoreVolumes(walls, wanted, fans, HoldMoved(strata, restored, putBack), moves, progress, 0.9);
+    RestoreVolumes(walls, wanted, ToleranceAgain, fans, HoldMoved(strata, restored, putBack), moves, progress, 0.9);
     moves.PutBackMeeting(progress, 1.0);
   }
   progress.Begin(1.0, 1);

@@ -31,15 +31,21 @@ SumInOrder(std::size_t size, const TCompute & compute, const TUse & use)
   }
 }
 
-/** The volume between a triangle and the first point of its walls, which adds to that of the label behind it. */
-inline double
-FindVolumeOfTriangle(const LabelWalls & walls, std::size_t triangle)
+/** A point near walls: positions relative to it keep their digits. */
+inline PositionType
+FindOrigin(const LabelWalls & walls)
 {
-  const PositionType first = ToPosition(walls.GetPoints().front()); // which keeps digits
+  return walls.GetPoints().empty() ? PositionType{} : ToPosition(walls.GetPoints().front());
+}
+
+/** The volume between a triangle and a point, which adds to that of the label behind the triangle. */
+inline double
+FindVolumeOfTriangle(const LabelWalls & walls, std::size_t triangle, const PositionType & origin)
+{
   CornersType corners = CornersOf(walls, walls.GetTriangles()[triangle]);
   for (PositionType & corner : corners)
   {
-    corner = Subtract(corner, first);
+    corner = Subtract(corner, origin);
   }
   return Dot(corners[0], AreaVector(corners)) / 6.0;
 }

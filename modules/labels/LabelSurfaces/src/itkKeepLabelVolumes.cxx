@@ -17,11 +17,12 @@ namespace
 using LabelType = FCCLabelWeights::LabelType;
 using Lattice = FCCImage<LabelType>;
 
-constexpr unsigned int MostCorrections = 6;
-constexpr unsigned int FewestTogether = 1;  // corrections of all labels
-constexpr double SettledOffset = 0.06;      // of weights, 0.03 voxels: the next would be about 0.004 voxels
-constexpr double FarthestOffset = 2.0;      // of weights; twice as far as walls move, in voxels
-constexpr double LargestShareAlone = 0.125; // of the lattice's sites: boxes of labels that are corrected alone
+constexpr unsigned int MostCorrections = 10;
+constexpr double SettledOffset = 0.06; // of weights, for specks; the next is about a sixth of it
+constexpr double LargestSettledOffset = 0.2;
+constexpr double MovePerOffset = 0.7;  // of a wall, in voxels: 0.5 for weights that are depths, more for flatter ones
+constexpr double FarthestOffset = 2.0; // of weights; twice as far as walls move, in voxels
+constexpr double LargestShareAlone = 0.25; // of the lattice's sites: boxes of labels that are corrected alone
 
 /** The surface of a label alone, as label 1, from the walls in a box of the lattice. */
 LabelWalls::Pointer
@@ -78,7 +79,7 @@ class LabelOffsets
 public:
   LabelOffsets(const LabelsToKeep & keep, double voxelEdge)
     : m_Keep(keep)
-    , m_LayerOfOffset(0.5 * voxelEdge) // an offset of a weight moves a wall half as far, in voxels
+    , m_LayerOfOffset(MovePerOffset * voxelEdge)
     , m_Offsets(keep.volumes.size())
     , m_Together(keep.volumes)
   {}
@@ -92,8 +93,9 @@ public:
     filter->SetWeights(&weights);
     filter->SetJunctionFraction(FCCLabelSurfaceFilter::MinimumFraction);
     filter->Update();
-    std::vector<double> steps = m_Together.FindLayers(
-      *filter->GetOutput(), [this](std::size_t label, double layer) { return this->Bound(label, layer); });
+    std::vector<double> steps =
+      m_Together.FindLayers(LabelSizes(*filter->GetOutput(), m_Offsets.size()),
+                            [this](std::size_t label, double layer) { return this->Bound(label, layer); });
     for (std::size_t label = 1; label < steps.size(); ++label)
     {
       steps[label] /= m_LayerOfOffset;
@@ -114,8 +116,8 @@ public:
     rhombic::ForEachOnThreads(some.size(), [&](std::size_t n) {
       const std::size_t label = some[n];
       const auto walls = ExtractAlone(static_cast<LabelType>(label), m_Keep.sites[label], labels, weights);
-      const auto & layers =
-        m_Alone.at(label).FindLayers(*walls, [&](std::size_t, double layer) { return this->Bound(label, layer); });
+      const auto & layers = m_Alone.at(label).FindLayers(
+        LabelSizes(*walls, 2), [&](std::size_t, double layer) { return this->Bound(label, layer); });
       steps[label] = layers[1] / m_LayerOfOffset;
       m_Offsets[label] += steps[label];
     });
@@ -138,6 +140,15 @@ private:
   std::map<std::size_t, LabelVolumes> m_Alone;
 };
 
+/** The change of an offset after which the next would change the volume of a label by less than a per cent: for a
+ * label of some voxels. */
+double
+FindSettledOffset(double voxels)
+{
+  constexpr double small = 100.0; // voxels
+  return std::clamp(SettledOffset * std::cbrt(voxels / small), SettledOffset, LargestSettledOffset);
+}
+
 } // namespace
 
 void
@@ -159,14 +170,13 @@ KeepLabelVolumes(const LabelsToKeep & keep,
     {
       sites += static_cast<double>(keep.sites[label].GetNumberOfPixels());
     }
-    isTogether =
-      isTogether && (n < FewestTogether || sites > mostAlone); // others may move no more once one moves alone
+    isTogether = isTogether && (n == 0 || sites > mostAlone); // others may move no more once one moves alone
     std::vector<double> steps =
       isTogether ? offsets.FindSteps(labels, weights) : offsets.FindStepsAlone(unsettled, labels, weights);
     unsettled.clear();
     for (std::size_t label = 1; label < steps.size(); ++label)
     {
-      if (std::abs(steps[label]) >= SettledOffset)
+      if (std::abs(steps[label]) >= FindSettledOffset(keep.volumes[label] / (voxelEdge * voxelEdge * voxelEdge)))
       {
         unsettled.push_back(label);
       }

@@ -19,8 +19,9 @@ struct LabelsToKeep
 
 /** Adds offsets to the weights of labels, so that their walls enclose the volumes of their voxels.
  *
- * Two rounds correct all labels together from the walls of the whole lattice. Labels that are not settled then, mostly
- * specks, are corrected each from the walls around it, as long as they are few.
+ * A round corrects all labels together from the walls of the whole lattice. Labels whose offset has changed
+ * much, mostly specks, are corrected again, each from the walls around it, as long as they are few. What is left, some
+ * hundredths of a voxel, RelaxLabelWalls() makes up for.
  *
  * \param voxelEdge in mm
  * \param topology of the labels and weights */

@@ -103,12 +103,29 @@ BoundedMoves::FindSpoilt() const
     });
 }
 
+/** The spoilt triangles of some, in their order. */
+std::vector<std::uint32_t>
+BoundedMoves::FindSpoilt(const std::vector<std::uint32_t> & triangles) const
+{
+  std::vector<std::uint8_t> areSpoilt(triangles.size());
+  rhombic::ForEachInBlocks(
+    triangles.size(), MovedBlock, [&](SizeValueType n) { areSpoilt[n] = this->IsSpoilt(triangles[n]) ? 1 : 0; });
+  std::vector<std::uint32_t> spoilt;
+  for (std::size_t n = 0; n < triangles.size(); ++n)
+  {
+    if (areSpoilt[n] != 0)
+    {
+      spoilt.push_back(triangles[n]);
+    }
+  }
+  return spoilt;
+}
+
 /** Puts the next points of spoilt triangles back to the surface's points. That may spoil other triangles at these
  * points: puts them back, too. */
 void
-BoundedMoves::FinishStep()
+BoundedMoves::PutBackSpoilt(std::vector<std::uint32_t> spoilt)
 {
-  auto spoilt = this->FindSpoilt();
   while (!spoilt.empty())
   {
     std::vector<std::uint32_t> next;
@@ -125,7 +142,30 @@ BoundedMoves::FinishStep()
                next.end());
     spoilt.swap(next);
   }
-  m_Surface.GetPoints().swap(m_Next);
+}
+
+/** Copies the positions of the corners of some triangles. */
+void
+BoundedMoves::CopyCorners(const std::vector<std::uint32_t> & triangles, const Points & from, Points & to) const
+{
+  for (const std::uint32_t id : triangles)
+  {
+    for (const std::uint32_t point : std::as_const(m_Surface).GetTriangles()[id])
+    {
+      to[point] = from[point];
+    }
+  }
+}
+
+std::vector<std::uint32_t>
+BoundedMoves::FindTrianglesAt(const std::vector<std::uint32_t> & points) const
+{
+  std::vector<std::uint8_t> isAtPoint(m_StartAreas.size());
+  for (const std::uint32_t point : points)
+  {
+    m_Fans.VisitTriangles(point, [&isAtPoint](std::uint32_t id) { isAtPoint[id] = 1; });
+  }
+  return FindMarked(isAtPoint);
 }
 
 /** The points of some triangles, ascending. */
@@ -200,54 +240,68 @@ BoundedMoves::Retreat(std::vector<std::uint32_t> triangles)
   return changed;
 }
 
-/** Moves the points of some triangles, among which are all that have moved, to the next points, and the tree with them.
- */
+/** The triangles of which points are no longer where the tree has them, ascending. */
+std::vector<std::uint32_t>
+BoundedMoves::FindMovedInTree() const
+{
+  const Points & points = m_Surface.GetPoints();
+  std::vector<std::uint32_t> moved;
+  for (std::uint32_t point = 0; point < points.size(); ++point)
+  {
+    if (points[point] != m_InTree[point])
+    {
+      moved.push_back(point);
+    }
+  }
+  return this->FindTrianglesAt(moved);
+}
+
+/** Makes the tree that of the surface; some triangles have moved. */
 void
-BoundedMoves::TakeNext(const std::vector<std::uint32_t> & triangles)
+BoundedMoves::UpdateTree(const std::vector<std::uint32_t> & triangles)
 {
   constexpr std::size_t many = 128; // of so many triangles, one
   if (triangles.size() > m_StartAreas.size() / many)
-  {
-    m_Surface.GetPoints() = m_Next;
-    m_Tree->Refit();
-    return;
-  }
-  std::vector<TriangleTree::Box> before;
-  before.reserve(triangles.size());
-  for (const std::uint32_t id : triangles)
-  {
-    before.push_back(m_Tree->GetTriangleBox(id));
-  }
-  Points & points = m_Surface.GetPoints();
-  for (const std::uint32_t point : this->FindCorners(triangles))
-  {
-    points[point] = m_Next[point];
-  }
-  for (std::size_t n = 0; n < triangles.size(); ++n)
-  {
-    m_Tree->Enlarge(before[n], m_Tree->GetTriangleBox(triangles[n]));
-  }
-}
-
-void
-BoundedMoves::PutBackMeeting(rhombic::StagedProgress & progress, double stageEnd)
-{
-  if (m_Tree)
   {
     m_Tree->Refit();
   }
   else
   {
-    m_Tree.emplace(m_Surface);
+    for (const std::uint32_t id : triangles)
+    {
+      const auto & triangle = std::as_const(m_Surface).GetTriangles()[id];
+      m_Tree->Enlarge(TriangleTree::BoxOf(m_InTree, triangle), m_Tree->GetTriangleBox(id));
+    }
   }
+  this->CopyCorners(triangles, m_Surface.GetPoints(), m_InTree);
+}
+
+void
+BoundedMoves::PutBackMeeting(rhombic::StagedProgress & progress, double stageEnd)
+{
   m_Next = m_Surface.GetPoints();
   this->BeginRetreats();
-  auto meeting = FindCrossingTriangles(*m_Tree, m_Fans, TriangleContact::Touching, &progress, stageEnd);
+  std::vector<std::uint32_t> meeting;
+  if (m_Tree)
+  {
+    const auto moved = this->FindMovedInTree(); // all others have been put back if they meet
+    this->UpdateTree(moved);
+    progress.Begin(stageEnd, 1);
+    meeting = FindCrossingTriangles(*m_Tree, m_Fans, moved, TriangleContact::Touching);
+  }
+  else
+  {
+    m_Tree.emplace(m_Surface);
+    m_InTree = m_Next;
+    meeting = FindCrossingTriangles(*m_Tree, m_Fans, TriangleContact::Touching, &progress, stageEnd);
+  }
   while (!meeting.empty())
   {
     progress.Completed(0);
     const auto latest = this->Retreat(meeting);
-    this->TakeNext(latest);
+
+    this->CopyCorners(latest, m_Next, m_Surface.GetPoints());
+    this->UpdateTree(latest);
     meeting = FindCrossingTriangles(*m_Tree, m_Fans, latest, TriangleContact::Touching);
   }
 }

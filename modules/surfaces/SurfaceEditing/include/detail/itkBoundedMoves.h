@@ -88,8 +88,27 @@ public:
   Step(const TFind & find, rhombic::StagedProgress & progress)
   {
     this->FindNext(find, progress);
-    this->FinishStep();
+    this->PutBackSpoilt(this->FindSpoilt());
+    m_Surface.GetPoints().swap(m_Next);
   }
+
+  /** Moves some points as Step() moves all.
+   * \param points each once
+   * \param triangles those at the points, see FindTrianglesAt() */
+  template <typename TFind>
+  void
+  StepSome(const std::vector<std::uint32_t> & points, const std::vector<std::uint32_t> & triangles, const TFind & find)
+  {
+    this->CopyCorners(triangles, m_Surface.GetPoints(), m_Next);
+    rhombic::ForEachInBlocks(
+      points.size(), MovedBlock, [&](SizeValueType n) { this->SetNext(points[n], find(points[n])); });
+    this->PutBackSpoilt(this->FindSpoilt(triangles));
+    this->CopyCorners(triangles, m_Next, m_Surface.GetPoints());
+  }
+
+  /** The triangles at some points, ascending. */
+  std::vector<std::uint32_t>
+  FindTrianglesAt(const std::vector<std::uint32_t> & points) const;
 
   /** Moves each point to find(point), as Step() does, or as far as triangles at it and around it may turn and shrink:
    * where one of them may not, a point and those around it move a quarter less, two quarters less and so on, so that
@@ -132,12 +151,17 @@ private:
     rhombic::ForEachBlock(m_Next.size(), MovedBlock, [&](SizeValueType begin, SizeValueType end) {
       for (SizeValueType point = begin; point < end; ++point)
       {
-        const PointType position = find(point);
-        const PositionType way = Subtract(ToPosition(position), ToPosition(m_Start[point]));
-        m_Next[point] = m_Bound.Measure(way) < 0.999 ? position : this->LimitMove(m_Start[point], position);
+        this->SetNext(point, find(point));
       }
       progress.Completed(end - begin);
     });
+  }
+
+  void
+  SetNext(SizeValueType point, const PointType & position)
+  {
+    const PositionType way = Subtract(ToPosition(position), ToPosition(m_Start[point]));
+    m_Next[point] = m_Bound.Measure(way) < 0.999 ? position : this->LimitMove(m_Start[point], position);
   }
 
   PointType
@@ -146,16 +170,22 @@ private:
   IsSpoilt(std::uint32_t triangle) const;
   std::vector<std::uint32_t>
   FindSpoilt() const;
+  std::vector<std::uint32_t>
+  FindSpoilt(const std::vector<std::uint32_t> & triangles) const;
   void
-  FinishStep();
+  PutBackSpoilt(std::vector<std::uint32_t> spoilt);
+  void
+  CopyCorners(const std::vector<std::uint32_t> & triangles, const Points & from, Points & to) const;
   std::vector<std::uint32_t>
   FindCorners(const std::vector<std::uint32_t> & triangles) const;
   void
   BeginRetreats();
   std::vector<std::uint32_t>
   Retreat(std::vector<std::uint32_t> triangles);
+  std::vector<std::uint32_t>
+  FindMovedInTree() const;
   void
-  TakeNext(const std::vector<std::uint32_t> & triangles);
+  UpdateTree(const std::vector<std::uint32_t> & triangles);
 
   TriangleSurface & m_Surface;
   const TrianglesOfPoints & m_Fans;
@@ -167,6 +197,7 @@ private:
   Points m_Moved;                       ///< from where points retreat
   std::vector<std::uint8_t> m_Retreats; ///< of each point: quarters of its way back to the start
   std::optional<TriangleTree> m_Tree;   ///< of the surface, since triangles that meet were first put back
+  Points m_InTree;                      ///< the points that the tree has
 };
 
 } // namespace itk
