@@ -1,6 +1,8 @@
 #include "itkFCCLabelWeights.h"
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 namespace itk
 {
@@ -17,18 +19,35 @@ FCCLabelWeights::SetNumberOfRows(SizeValueType rows)
 void
 FCCLabelWeights::SortRow(SizeValueType row)
 {
+  // By counting: labels were added one after another, so that their order at a site is nearly right.
   RowType & entries = m_Rows[row];
-  std::sort(entries.begin(), entries.end(), [](const Entry & a, const Entry & b) {
-    return a.i != b.i ? a.i < b.i : a.label < b.label;
-  });
-  entries.shrink_to_fit();
+  std::vector<std::uint32_t> places(1);
+  for (const Entry & entry : entries)
+  {
+    places.resize(std::max<std::size_t>(places.size(), entry.i + std::size_t{ 2 }));
+    ++places[entry.i + std::size_t{ 1 }];
+  }
+  std::partial_sum(places.begin(), places.end(), places.begin());
   std::vector<std::uint32_t> & begins = m_Begins[row];
   begins.clear();
-  for (std::uint32_t n = 0; n < entries.size(); ++n)
+  for (std::size_t i = 0; i < places.size(); i += SitesPerBegin)
   {
-    begins.resize(std::max<std::size_t>(begins.size(), entries[n].i / SitesPerBegin + 1), n);
+    begins.push_back(places[i]);
   }
-  begins.push_back(static_cast<std::uint32_t>(entries.size()));
+  begins.back() != entries.size() ? begins.push_back(places.back()) : void();
+  RowType sorted(entries.size());
+  for (const Entry & entry : entries)
+  {
+    sorted[places[entry.i]++] = entry;
+  }
+  for (std::size_t n = 1; n < sorted.size(); ++n)
+  {
+    for (std::size_t m = n; m > 0 && sorted[m - 1].i == sorted[m].i && sorted[m - 1].label > sorted[m].label; --m)
+    {
+      std::swap(sorted[m - 1], sorted[m]);
+    }
+  }
+  entries.swap(sorted);
 }
 
 const float *

@@ -10,10 +10,12 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <functional>
 #include <iterator>
 #include <memory>
+#include <new>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -53,15 +55,57 @@ constexpr unsigned int Passes = Wide.corrections + Medium.corrections + Fine.cor
 /** The form of the part of its class that a voxel belongs to. */
 enum class VoxelForm : std::uint8_t
 {
-  Thick,     ///< in a 2 x 2 x 2 block of its class
+  Thick = 0, ///< in a 2 x 2 x 2 block of its class
   Thin,      ///< in none, and not yet known to be one of the others
   Spur,      ///< in a part of fewer than SmallestSheet thin voxels that connects nothing
   SmallPart, ///< in another part of fewer than SmallestSheet thin voxels
   Sheet      ///< in a larger part: a sheet or vessel
 };
 
+/** \class VoxelArray
+ * \brief A byte for each voxel, at first 0: the system hands out memory for the parts that are used. */
+template <typename T>
+class VoxelArray
+{
+public:
+  explicit VoxelArray(SizeValueType voxels)
+    : m_Bytes(static_cast<T *>(std::calloc(voxels, sizeof(T))))
+  {
+    static_assert(sizeof(T) == 1);
+    if (!m_Bytes)
+    {
+      throw std::bad_alloc();
+    }
+  }
+
+  T &
+  operator[](SizeValueType voxel)
+  {
+    return m_Bytes[voxel];
+  }
+  const T &
+  operator[](SizeValueType voxel) const
+  {
+    return m_Bytes[voxel];
+  }
+
+private:
+  struct Free
+  {
+    void
+    operator()(T * bytes) const
+    {
+      std::free(bytes);
+    }
+  };
+  std::unique_ptr<T[], Free> m_Bytes;
+};
+
 /** For each voxel, 1 if it belongs to the set and 0 if not. */
-using VoxelSet = std::vector<std::uint8_t>;
+using VoxelSet = VoxelArray<std::uint8_t>;
+
+/** The forms of voxels; Thick where they are not known. */
+using VoxelForms = VoxelArray<VoxelForm>;
 
 /** The index along an axis that is \a reach before \a index, or the nearest in an image of \a length voxels. */
 SizeValueType
@@ -296,7 +340,7 @@ Smooth(const MaskWork & work, double sigma, const VoxelBand & band, const RowRea
   const VoxelBand smoothedInRow = smoothedInPlane.Widened({ 0, reach, 0 });
 
   // Along x and y, plane by plane.
-  VoxelSet hasValues(depth); // by plane
+  std::vector<std::uint8_t> hasValues(depth); // by plane
   work.progress.ForEach(depth, [&](SizeValueType z) {
     std::vector<float> extended(stride + 2 * reach);
     std::vector<float> plane;
@@ -511,11 +555,7 @@ MatchLocalVolumes(const MaskWork & work, const Scale & scale, const VoxelBand & 
 /** Finds the narrow voxels: samples more than \a least on the wrong side, and voxels of small parts and sheets that are
  * on it at all. Returns whether there are any. */
 bool
-FindNarrow(const MaskWork & work,
-           const std::vector<VoxelForm> & forms,
-           const VoxelBand & band,
-           float least,
-           VoxelSet & isNarrow)
+FindNarrow(const MaskWork & work, const VoxelForms & forms, const VoxelBand & band, float least, VoxelSet & isNarrow)
 {
   std::atomic<bool> isAny{ false };
   work.ForEachVoxel(band, [&](SizeValueType voxel) {
@@ -546,14 +586,14 @@ Refine(const MaskWork & work, const Scale & scale, const VoxelBand & band, const
   });
   const SizeValueType blended = GaussianWeights(blendingSigma).size() / 2;
   const SizeValueType reach = blended + GaussianWeights(work.widening * scale.sigma).size(); // of two corrections
-  const std::unique_ptr<float[]> fine(new float[isNarrow.size()]);
+  const std::unique_ptr<float[]> fine(new float[work.GetNumberOfVoxels()]);
   MatchLocalVolumes(work, scale, narrow.Widened({ reach, reach, reach }).Common(band), fine.get());
   Smooth(
     work,
     blendingSigma,
     narrow.Widened({ blended, blended, blended }).Common(band),
     [&](SizeValueType row, float * values) {
-      std::copy_n(isNarrow.data() + row * width, width, values);
+      std::copy_n(&isNarrow[row * width], width, values);
       return narrow.HasRow(row);
     },
     [&](SizeValueType row, SizeValueType begin, SizeValueType end, const float * values) {
@@ -569,14 +609,19 @@ Refine(const MaskWork & work, const Scale & scale, const VoxelBand & band, const
 /** Marks the voxels of a run of which one of the eight 2 x 2 x 2 blocks around them is all of their class.
  * \param isThick of the voxels of the row, 0 or 1 */
 void
-FindThick(const MaskWork & work, SizeValueType row, SizeValueType begin, SizeValueType end, VoxelSet & isThick)
+FindThick(const MaskWork & work,
+          SizeValueType row,
+          SizeValueType begin,
+          SizeValueType end,
+          std::vector<std::uint8_t> & isThick)
 {
   const auto & size = work.size;
   const SizeValueType first = ClampedIndex(begin, 1, size[0]);
   const SizeValueType last = std::min(end, size[0] - 1);
   std::fill(
     isThick.begin() + static_cast<std::ptrdiff_t>(begin), isThick.begin() + static_cast<std::ptrdiff_t>(end), 0);
-  VoxelSet columns(last - first + 3); // 4 rows across: 1 all outside, 2 all inside, 0 else; one more at either end
+  std::vector<std::uint8_t> columns(last - first +
+                                    3); // 4 rows across: 1 all outside, 2 all inside, 0 else; one more at either end
   for (unsigned int block = 0; block < 4; ++block)
   {
     const std::uint8_t * rows[4];
@@ -669,10 +714,10 @@ IsSpur(const MaskWork & work, const std::vector<SizeValueType> & part, const TTe
 
 /** Finds the forms of the voxels in a band; all others are thick. */
 void
-FindForms(const MaskWork & work, const VoxelBand & band, std::vector<VoxelForm> & forms)
+FindForms(const MaskWork & work, const VoxelBand & band, VoxelForms & forms)
 {
   work.ForEachRow([&](SizeValueType row) {
-    VoxelSet isThick(work.size[0]);
+    std::vector<std::uint8_t> isThick(work.size[0]);
     band.ForEachRun(row, [&](SizeValueType begin, SizeValueType end) {
       FindThick(work, row, begin, end, isThick);
       for (SizeValueType x = begin; x < end; ++x)
@@ -696,7 +741,7 @@ FindForms(const MaskWork & work, const VoxelBand & band, std::vector<VoxelForm> 
 /** Leaves the protected voxels of the narrow ones, all of which are in the band: thin voxels that are still on the
  * wrong side, without spurs. */
 void
-KeepProtected(const MaskWork & work, const std::vector<VoxelForm> & forms, const VoxelBand & band, VoxelSet & isNarrow)
+KeepProtected(const MaskWork & work, const VoxelForms & forms, const VoxelBand & band, VoxelSet & isNarrow)
 {
   work.ForEachVoxel(band, [&](SizeValueType voxel) {
     const bool isUnprotectedForm =
@@ -863,7 +908,7 @@ AntiAliasMaskImageFilter::GenerateData()
   });
   MatchLocalVolumes(work, longestPeriod > 1 ? WideBetweenSlices : Wide, band, work.field);
 
-  std::vector<VoxelForm> forms(work.GetNumberOfVoxels(), VoxelForm::Thick); // not yet known
+  VoxelForms forms(work.GetNumberOfVoxels());
   VoxelSet isNarrow(work.GetNumberOfVoxels());
   if (FindNarrow(work, forms, band, Narrow * static_cast<float>(work.widening), isNarrow))
   {

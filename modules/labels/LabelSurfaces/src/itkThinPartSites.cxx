@@ -22,6 +22,26 @@ PositionOf(const FCCLattice::SiteType & site)
   return { static_cast<double>(site[0]), static_cast<double>(site[1]), static_cast<double>(site[2]) };
 }
 
+/** The normals of the faces of the Voronoi cell of the site 0. */
+const auto FaceNormals = [] {
+  std::array<PositionType, FCCLattice::NearestNeighbors.size()> normals{};
+  std::transform(FCCLattice::NearestNeighbors.begin(), FCCLattice::NearestNeighbors.end(), normals.begin(), PositionOf);
+  return normals;
+}();
+
+/** A convex polygon: a triangle, or what planes leave of it. */
+struct Polygon
+{
+  std::array<PositionType, 3 + FCCLattice::NearestNeighbors.size()> corners;
+  std::size_t size = 0;
+
+  void
+  Add(const PositionType & corner)
+  {
+    corners[size++] = corner;
+  }
+};
+
 void
 SortUniqueSites(Sites & sites)
 {
@@ -30,33 +50,33 @@ SortUniqueSites(Sites & sites)
 }
 
 /** Whether a convex polygon meets the Voronoi cell of the site 0: whether a part of it is within all of the cell's
- * faces. Leaves that part. */
+ * faces. */
 bool
-MeetsCell(std::vector<PositionType> & polygon, std::vector<PositionType> & rest)
+MeetsCell(Polygon polygon)
 {
-  for (const FCCLattice::SiteType & face : FCCLattice::NearestNeighbors)
+  for (const PositionType & normal : FaceNormals)
   {
-    rest.clear();
-    for (std::size_t n = 0; n < polygon.size(); ++n)
+    Polygon rest;
+    for (std::size_t n = 0; n < polygon.size; ++n)
     {
-      const PositionType & here = polygon[n];
-      const PositionType & there = polygon[(n + 1) % polygon.size()];
-      const double from = Dot(PositionOf(face), here) - Inside;
-      const double to = Dot(PositionOf(face), there) - Inside;
+      const PositionType & here = polygon.corners[n];
+      const PositionType & there = polygon.corners[n + 1 < polygon.size ? n + 1 : 0];
+      const double from = Dot(normal, here) - Inside;
+      const double to = Dot(normal, there) - Inside;
       if (from <= 0.0)
       {
-        rest.push_back(here);
+        rest.Add(here);
       }
       if ((from < 0.0 && to > 0.0) || (from > 0.0 && to < 0.0))
       {
-        rest.push_back(Mix(here, there, from / (from - to)));
+        rest.Add(Mix(here, there, from / (from - to)));
       }
     }
-    polygon.swap(rest);
-    if (polygon.empty())
+    if (rest.size == 0)
     {
       return false;
     }
+    polygon = rest;
   }
   return true;
 }
@@ -66,9 +86,9 @@ unsigned int
 FacesBefore(const PositionType & point)
 {
   unsigned int faces = 0;
-  for (unsigned int n = 0; n < FCCLattice::NearestNeighbors.size(); ++n)
+  for (unsigned int n = 0; n < FaceNormals.size(); ++n)
   {
-    faces |= Dot(PositionOf(FCCLattice::NearestNeighbors[n]), point) > Inside ? 1u << n : 0u;
+    faces |= Dot(FaceNormals[n], point) > Inside ? 1u << n : 0u;
   }
   return faces;
 }
@@ -88,11 +108,10 @@ HullMeetsCell(const std::vector<PositionType> & points)
   {
     return true;
   }
-  std::vector<PositionType> polygon;
-  std::vector<PositionType> rest;
-  const auto meetsCell = [&](std::initializer_list<PositionType> corners) {
-    polygon = corners;
-    return MeetsCell(polygon, rest);
+  const auto meetsCell = [](std::initializer_list<PositionType> corners) {
+    Polygon polygon;
+    std::for_each(corners.begin(), corners.end(), [&polygon](const PositionType & corner) { polygon.Add(corner); });
+    return MeetsCell(polygon);
   };
   for (std::size_t a = 0; a < points.size(); ++a)
   {
