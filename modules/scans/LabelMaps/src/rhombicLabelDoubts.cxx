@@ -173,15 +173,46 @@ ShareBetween(const std::map<std::int32_t, Sums> & labels)
   return all.squares > square ? (between - square) / (all.squares - square) : 0.0;
 }
 
-/** How well labels part a scan's values, which are taken by their ranks among sorted values. */
+/** \class Ranks
+ * \brief The ranks of values in a list of numbers, many of which are equal. */
+class Ranks
+{
+public:
+  explicit Ranks(std::vector<double> list)
+  {
+    std::sort(list.begin(), list.end());
+    for (auto first = list.begin(), last = first; first != list.end(); first = last)
+    {
+      last = std::upper_bound(first, list.end(), *first);
+      m_Values.push_back(*first);
+      m_Begins.push_back(static_cast<double>(first - list.begin()));
+    }
+    m_Begins.push_back(static_cast<double>(list.size()));
+  }
+
+  /** How many numbers are smaller, and how many are not larger, together. */
+  double
+  Find(double value) const
+  {
+    const auto found = std::lower_bound(m_Values.begin(), m_Values.end(), value);
+    const auto place = static_cast<std::size_t>(found - m_Values.begin());
+    const bool isInList = found != m_Values.end() && *found == value;
+    return m_Begins[place] + m_Begins[isInList ? place + 1 : place];
+  }
+
+private:
+  std::vector<double> m_Values; ///< of the list, each once, ascending
+  std::vector<double> m_Begins; ///< how many numbers are smaller than each of them, and how many there are
+};
+
+/** How well labels part a scan's values, which are taken by their ranks. */
 Fit
-FindFit(const std::vector<double> & sorted, const LabelledValues & values)
+FindFit(const Ranks & ranks, const LabelledValues & values)
 {
   std::map<std::int32_t, Sums> labels;
   for (std::size_t n = 0; n < values.values.size(); ++n)
   {
-    const auto range = std::equal_range(sorted.begin(), sorted.end(), values.values[n]);
-    labels[values.labels[n]].Add(static_cast<double>((range.first - sorted.begin()) + (range.second - sorted.begin())));
+    labels[values.labels[n]].Add(ranks.Find(values.values[n]));
   }
   Fit fit;
   fit.withBackground = ShareBetween(labels);
@@ -252,15 +283,14 @@ FindBetterPlace(const Scan & scan,
   {
     return std::nullopt;
   }
-  std::vector<double> sorted = values.values;
-  std::sort(sorted.begin(), sorted.end());
-  const Fit fit = FindFit(sorted, values);
+  const Ranks ranks(values.values);
+  const Fit fit = FindFit(ranks, values);
   std::optional<Move> best;
   double bestProduct = muchBetter * fit.GetProduct();
   for (const Move & move : ListMoves(GeometryOf(map.scan.image)))
   {
     const LabelledValues moved = ValuesAt(scan, GeometryOf(map.scan.image), voxels, move.mirrors, move.shift);
-    const Fit movedFit = FindFit(sorted, moved);
+    const Fit movedFit = FindFit(ranks, moved);
     const bool isEnough =
       static_cast<double>(moved.values.size()) >= fewestInScan * static_cast<double>(values.values.size());
     if (isEnough && movedFit.GetProduct() > bestProduct && movedFit.withBackground > fit.withBackground &&
