@@ -16,11 +16,19 @@ TriangleSurface::PointsContainer
 TakeUsedPoints(const TriangleSurface::PointsContainer & points, TriangleSurface::TrianglesContainer & triangles)
 {
   constexpr auto unused = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> numbers(points.size(), unused);
-  for (const auto & triangle : triangles)
+  std::uint32_t first = unused;
+  std::uint32_t last = 0;
+  for (const auto & [a, b, c] : triangles)
   {
-    for (const std::uint32_t point : triangle)
+    first = std::min({ first, a, b, c });
+    last = std::max({ last, a, b, c });
+  }
+  std::vector<std::uint32_t> numbers(triangles.empty() ? 0 : last - first + std::size_t{ 1 }, unused);
+  for (auto & triangle : triangles)
+  {
+    for (std::uint32_t & point : triangle)
     {
+      point -= first;
       numbers[point] = 0;
     }
   }
@@ -30,7 +38,7 @@ TakeUsedPoints(const TriangleSurface::PointsContainer & points, TriangleSurface:
     if (numbers[n] != unused)
     {
       numbers[n] = static_cast<std::uint32_t>(used.size());
-      used.push_back(points[n]);
+      used.push_back(points[first + n]);
     }
   }
   for (auto & triangle : triangles)

@@ -62,50 +62,23 @@ enum class VoxelForm : std::uint8_t
   Sheet      ///< in a larger part: a sheet or vessel
 };
 
-/** \class VoxelArray
- * \brief A byte for each voxel, at first 0: the system hands out memory for the parts that are used. */
+/** A byte for each voxel. */
 template <typename T>
-class VoxelArray
+using VoxelBytes = std::unique_ptr<T[], decltype(&std::free)>;
+
+/** Bytes that are 0: the system hands out memory for the parts that are used only. */
+template <typename T>
+VoxelBytes<T>
+MakeVoxelBytes(SizeValueType voxels)
 {
-public:
-  explicit VoxelArray(SizeValueType voxels)
-    : m_Bytes(static_cast<T *>(std::calloc(voxels, sizeof(T))))
-  {
-    static_assert(sizeof(T) == 1);
-    if (!m_Bytes)
-    {
-      throw std::bad_alloc();
-    }
-  }
-
-  T &
-  operator[](SizeValueType voxel)
-  {
-    return m_Bytes[voxel];
-  }
-  const T &
-  operator[](SizeValueType voxel) const
-  {
-    return m_Bytes[voxel];
-  }
-
-private:
-  struct Free
-  {
-    void
-    operator()(T * bytes) const
-    {
-      std::free(bytes);
-    }
-  };
-  std::unique_ptr<T[], Free> m_Bytes;
-};
+  VoxelBytes<T> bytes(static_cast<T *>(std::calloc(voxels, 1)), &std::free);
+  return bytes ? std::move(bytes) : throw std::bad_alloc();
+}
 
 /** For each voxel, 1 if it belongs to the set and 0 if not. */
-using VoxelSet = VoxelArray<std::uint8_t>;
+using VoxelSet = VoxelBytes<std::uint8_t>;
 
-/** The forms of voxels; Thick where they are not known. */
-using VoxelForms = VoxelArray<VoxelForm>;
+using VoxelForms = VoxelBytes<VoxelForm>;
 
 /** The index along an axis that is \a reach before \a index, or the nearest in an image of \a length voxels. */
 SizeValueType
@@ -654,7 +627,7 @@ template <typename TTest, typename TUse>
 void
 ForEachPart(const MaskWork & work, const VoxelBand & band, const TTest & isMember, const TUse & use)
 {
-  VoxelSet isSeen(work.GetNumberOfVoxels());
+  VoxelSet isSeen = MakeVoxelBytes<std::uint8_t>(work.GetNumberOfVoxels());
   work.ForEachVoxelInOrder(band, [&](SizeValueType first) {
     if (!isMember(first) || isSeen[first] != 0)
     {
@@ -908,8 +881,8 @@ AntiAliasMaskImageFilter::GenerateData()
   });
   MatchLocalVolumes(work, longestPeriod > 1 ? WideBetweenSlices : Wide, band, work.field);
 
-  VoxelForms forms(work.GetNumberOfVoxels());
-  VoxelSet isNarrow(work.GetNumberOfVoxels());
+  VoxelForms forms = MakeVoxelBytes<VoxelForm>(work.GetNumberOfVoxels());
+  VoxelSet isNarrow = MakeVoxelBytes<std::uint8_t>(work.GetNumberOfVoxels());
   if (FindNarrow(work, forms, band, Narrow * static_cast<float>(work.widening), isNarrow))
   {
     Refine(work, Medium, band, isNarrow);

@@ -81,14 +81,19 @@ MeetsCell(Polygon polygon)
   return true;
 }
 
-/** The faces of the Voronoi cell of the site 0 beyond which a point is, a bit for each. */
+/** The faces of the Voronoi cell of the site 0 beyond which a point is, a bit for each: the normals of opposite faces
+ * are the sums and the differences of two axes. */
 unsigned int
 FacesBefore(const PositionType & point)
 {
   unsigned int faces = 0;
-  for (unsigned int n = 0; n < FaceNormals.size(); ++n)
+  for (unsigned int axis = 0; axis < 3; ++axis)
   {
-    faces |= Dot(FaceNormals[n], point) > Inside ? 1u << n : 0u;
+    const double sum = point[axis] + point[(axis + 1) % 3];
+    const double difference = point[axis] - point[(axis + 1) % 3];
+    faces |= ((sum > Inside ? 1u : 0u) | (sum < -Inside ? 2u : 0u) | (difference > Inside ? 4u : 0u) |
+              (difference < -Inside ? 8u : 0u))
+             << 4 * axis;
   }
   return faces;
 }

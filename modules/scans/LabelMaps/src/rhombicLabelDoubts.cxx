@@ -1,5 +1,6 @@
 #include "rhombicLabelDoubts.h"
 
+#include "rhombicForEachBlock.h"
 #include "rhombicWording.h"
 
 #include "itkBoundingBox.h"
@@ -210,9 +211,14 @@ Fit
 FindFit(const Ranks & ranks, const LabelledValues & values)
 {
   std::map<std::int32_t, Sums> labels;
+  auto last = labels.end(); // mostly that of the next, too
   for (std::size_t n = 0; n < values.values.size(); ++n)
   {
-    labels[values.labels[n]].Add(ranks.Find(values.values[n]));
+    if (last == labels.end() || last->first != values.labels[n])
+    {
+      last = labels.try_emplace(values.labels[n]).first;
+    }
+    last->second.Add(ranks.Find(values.values[n]));
   }
   Fit fit;
   fit.withBackground = ShareBetween(labels);
@@ -287,16 +293,20 @@ FindBetterPlace(const Scan & scan,
   const Fit fit = FindFit(ranks, values);
   std::optional<Move> best;
   double bestProduct = muchBetter * fit.GetProduct();
-  for (const Move & move : ListMoves(GeometryOf(map.scan.image)))
+  const std::vector<Move> moves = ListMoves(GeometryOf(map.scan.image));
+  std::vector<Fit> fits(moves.size()); // bad where too few voxels are in the scan
+  ForEachOnThreads(moves.size(), [&](std::size_t n) {
+    const LabelledValues moved = ValuesAt(scan, GeometryOf(map.scan.image), voxels, moves[n].mirrors, moves[n].shift);
+    const double fewest = fewestInScan * static_cast<double>(values.values.size());
+    fits[n] = static_cast<double>(moved.values.size()) >= fewest ? FindFit(ranks, moved) : Fit();
+  });
+  for (std::size_t n = 0; n < moves.size(); ++n)
   {
-    const LabelledValues moved = ValuesAt(scan, GeometryOf(map.scan.image), voxels, move.mirrors, move.shift);
-    const Fit movedFit = FindFit(ranks, moved);
-    const bool isEnough =
-      static_cast<double>(moved.values.size()) >= fewestInScan * static_cast<double>(values.values.size());
-    if (isEnough && movedFit.GetProduct() > bestProduct && movedFit.withBackground > fit.withBackground &&
+    const Fit & movedFit = fits[n];
+    if (movedFit.GetProduct() > bestProduct && movedFit.withBackground > fit.withBackground &&
         movedFit.ofLabels > fit.ofLabels && std::min(movedFit.withBackground, movedFit.ofLabels) > leastFit)
     {
-      best = move;
+      best = moves[n];
       bestProduct = movedFit.GetProduct();
     }
   }

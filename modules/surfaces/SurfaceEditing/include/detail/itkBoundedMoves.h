@@ -12,6 +12,21 @@
 namespace itk
 {
 
+/** The ids of which the marks are not 0, ascending. */
+inline std::vector<std::uint32_t>
+FindMarked(const std::vector<std::uint8_t> & marks)
+{
+  std::vector<std::uint32_t> ids;
+  for (std::size_t id = 0; id < marks.size(); ++id)
+  {
+    if (marks[id] != 0)
+    {
+      ids.push_back(static_cast<std::uint32_t>(id));
+    }
+  }
+  return ids;
+}
+
 /** \class MoveBound
  * \brief How far a point may move from its start: within a ball, and within an ellipsoid if there is one. */
 class MoveBound

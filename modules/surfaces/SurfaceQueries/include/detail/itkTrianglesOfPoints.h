@@ -19,21 +19,6 @@ SortUnique(std::vector<std::uint32_t> & ids)
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
-/** The ids of which the marks are not 0, ascending. */
-inline std::vector<std::uint32_t>
-FindMarked(const std::vector<std::uint8_t> & marks)
-{
-  std::vector<std::uint32_t> ids;
-  for (std::size_t id = 0; id < marks.size(); ++id)
-  {
-    if (marks[id] != 0)
-    {
-      ids.push_back(static_cast<std::uint32_t>(id));
-    }
-  }
-  return ids;
-}
-
 /** Calls \a work(begin, end, found) for blocks of [0, size), on several threads. Returns the ids that the calls append
  * to \a found, sorted, each of them once. */
 template <typename TWork>
