@@ -17,6 +17,10 @@ for file in tests/fuzz/*Fuzz.cxx; do
   name=${file##*/rhombic}
   steps+=("fuzz-${name%Fuzz.cxx}")
 done
+declare -A flags=([no-slp]="-O3 -fno-tree-slp-vectorize" [O1]=-O1 [O2]=-O2 [avx2]="-O3 -mavx2 -mfma" [clang]=-O3) # of compilers
+for variant in no-slp O1 O2 avx2 clang; do
+  steps+=("compiler-$variant")
+done
 steps+=(malformed chaos faults)
 steps+=(asan tsan)
 
@@ -119,6 +123,15 @@ fuzz() { # STEP
      -malloc_limit_mb=512 -print_final_stats=1 -artifact_prefix="$folder/$name-" "${inputs[@]}" && exit $status) || status=1
 }
 
+compiler() { # STEP VARIANT: the program that is built otherwise writes the same meshes
+  local build=$folder/$1 options=("-DCMAKE_CXX_FLAGS_RELEASE=${flags[$2]} -DNDEBUG")
+  [ "$2" != clang ] || options+=(-DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++
+                                 "-DCMAKE_CXX_FLAGS=-include $source/tests/fuzz/itkClang.h")
+  cmake --preset release -B "$build" "${options[@]}" >"$build.txt"
+  cmake --build "$build" --target rhombic >>"$build.txt"
+  part "$1" same-bytes count_groups tests/same-bytes.sh build/dev/bin/rhombic "$build/bin/rhombic" -j 1 mesh- labels-
+}
+
 tail_of() { # what prints its counts at the end
   tail -n 1 "$1"
 }
@@ -150,6 +163,7 @@ for step in "${steps[@]}"; do
     zone) environment zone TZ=Pacific/Kiritimati ;;
     blanks | lines | home | user) environment "$step" ;;
     fuzz-*) fuzz "$step" ;;
+    compiler-*) compiler "$step" "${step#compiler-}" ;;
     malformed) malformed ;;
     chaos) part chaos 300-cases tail_of tests/faults/chaos.py build/dev/bin/rhombic -c 300 -r 3 ;;
     faults) part faults all tail_of tests/faults/inject-faults.py build/dev/bin/rhombic testdata/phantom 12 ;;
