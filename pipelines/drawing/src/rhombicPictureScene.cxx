@@ -320,7 +320,7 @@ SurfacesForViews(const std::vector<SceneSurface> & surfaces,
   {
     return ShadedSurfaces(surfaces);
   }
-  constexpr double unseen = 0.5; // pixels
+  constexpr double unseen = 0.25; // pixels
   Scene scene;
   scene.surfaces = surfaces;
   const double pixelSize = SurfaceRenderer::Plan(scene, render, views).front().pixelSize;
