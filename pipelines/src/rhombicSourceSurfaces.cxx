@@ -1,6 +1,7 @@
 #include "rhombicSourceSurfaces.h"
 
 #include "rhombicFailure.h"
+#include "rhombicFewerTriangles.h"
 #include "rhombicMeasureTable.h"
 
 #include "itkFCCScanBorder.h"
@@ -104,7 +105,7 @@ AddLabels(const SurfaceMaking & making, const LoadedSource & loaded, std::vector
   {
     ExtractSurfaces(mesh);
   }
-  std::vector<itk::TriangleSurface::ConstPointer> forDrawing(mesh.labels.size());
+  std::vector<SceneSurface> forDrawing;
   if (!isForFiles && !making.part)
   {
     constexpr double unseen = 0.05; // of a voxel's shortest edge: in pictures half a pixel and less
@@ -114,13 +115,20 @@ AddLabels(const SurfaceMaking & making, const LoadedSource & loaded, std::vector
       SmoothTriangleSurfaceNormals(*shaded);
       mesh.labels[n].scene.surface = shaded;
     });
+    for (const LabelSurface & label : mesh.labels)
+    {
+      forDrawing.push_back(label.scene);
+    }
     const auto & edges = GeometryOf(loaded.labels->scan.image).GetSpacing();
-    forDrawing = SimplifySurfacesForRendering(mesh, unseen * std::min({ edges[0], edges[1], edges[2] }));
+    forDrawing = InFewerTriangles(forDrawing, unseen * std::min({ edges[0], edges[1], edges[2] }));
   }
   for (std::size_t n = 0; n < mesh.labels.size(); ++n)
   {
     MeshedSurface & surface = surfaces.emplace_back();
-    surface.forDrawing = forDrawing[n];
+    if (!forDrawing.empty())
+    {
+      surface.forDrawing = forDrawing[n].surface;
+    }
     surface.scene = std::exchange(mesh.labels[n].scene, {});
     surface.label = std::move(mesh.labels[n]);
     surface.extracted = extracted[n];

@@ -1,4 +1,5 @@
 #include "rhombicFailure.h"
+#include "rhombicFewerTriangles.h"
 #include "rhombicLabelSurfaces.h"
 #include "rhombicReadScan.h"
 
@@ -983,56 +984,61 @@ TEST(LabelSurfaces, HardlyFoldWhereThreeMeet)
   EXPECT_LT(ShareOfFolds(*mesh.walls.front()), 0.002);
 }
 
-/** The corners of a surface's triangles, whichever way they face. */
-std::set<std::array<itk::TriangleSurface::PointType, 3>>
-CornersOfTriangles(const itk::TriangleSurface & surface)
+/** Distance of the point that is farthest from a surface. */
+double
+FarthestPoint(const itk::TriangleSurface & points, const itk::TriangleSurface & surface)
 {
-  std::set<std::array<itk::TriangleSurface::PointType, 3>> corners;
-  for (const auto & [a, b, c] : surface.GetTriangles())
+  const itk::TriangleTree tree(surface);
+  double farthest = 0.0;
+  for (const auto & point : points.GetPoints())
   {
-    std::array<itk::TriangleSurface::PointType, 3> triangle{ surface.GetPoints()[a],
-                                                             surface.GetPoints()[b],
-                                                             surface.GetPoints()[c] };
-    std::sort(triangle.begin(), triangle.end());
-    corners.insert(triangle);
+    farthest = std::max(farthest, std::sqrt(tree.FindClosestPoint({ point[0], point[1], point[2] }).squaredDistance));
   }
-  return corners;
+  return farthest;
 }
 
-TEST(LabelSurfaces, ForRenderingAreAtTheirPlacesInFewerTriangles)
+TEST(LabelSurfaces, InFewerTrianglesStayClosedWhereWallsMeet)
 {
-  rhombic::LabelMesh mesh = rhombic::LabelsToWalls( // two halves of a ball around a smaller ball
-    MakeMap(40,
-            [](const Point & point) {
-              const double radius = point.GetVectorFromOrigin().GetNorm();
-              return radius < 8.0 ? 3 : radius < 16.0 ? (point[0] < 0.0 ? 1 : 2) : 0;
-            }),
-    {},
-    {});
-  rhombic::ExtractSurfaces(mesh);
-  constexpr double distance = 0.05;
-  const auto fewer = rhombic::SimplifySurfacesForRendering(mesh, distance);
-  ASSERT_EQ(fewer.size(), 3);
-  for (std::size_t n = 0; n < fewer.size(); ++n)
+  std::mt19937 random(37);
+  std::uniform_real_distribution<double> place(-10.0, 10.0);
+  for (int repetition = 0; repetition < 8; ++repetition)
   {
-    const itk::TriangleSurface & whole = *mesh.labels[n].scene.surface;
-    EXPECT_TRUE(ComputeTriangleSurfaceTopology(*fewer[n]).IsWatertight());
-    EXPECT_LT(2 * fewer[n]->GetNumberOfTriangles(), whole.GetNumberOfTriangles());
-    EXPECT_EQ(fewer[n]->GetNormals().size(), fewer[n]->GetNumberOfPoints());
-    EXPECT_NEAR(ComputeTriangleSurfaceVolume(*fewer[n]) / ComputeTriangleSurfaceVolume(whole), 1.0, 0.01);
-    const itk::TriangleTree tree(*fewer[n]);
-    double farthest = 0.0;
-    for (const auto & point : whole.GetPoints())
+    std::vector<Point> centres;
+    for (int label = 0; label < 9; ++label)
     {
-      farthest = std::max(farthest, std::sqrt(tree.FindClosestPoint({ point[0], point[1], point[2] }).squaredDistance));
+      centres.push_back(At(place(random), place(random), place(random)));
     }
-    EXPECT_LT(farthest, 3.0 * distance) << n;
-  }
-  const auto first = CornersOfTriangles(*fewer[0]);
-  const auto second = CornersOfTriangles(*fewer[1]);
-  for (const auto & triangle : CornersOfTriangles(*fewer[2]))
-  {
-    EXPECT_EQ(first.count(triangle) + second.count(triangle), 1); // the same walls from both sides
+    rhombic::LabelMesh mesh = rhombic::LabelsToWalls( // cells around random centres in a ball
+      MakeMap(28,
+              [&](const Point & point) {
+                const auto nearest =
+                  std::min_element(centres.begin(), centres.end(), [&](const auto & a, const auto & b) {
+                    return point.SquaredEuclideanDistanceTo(a) < point.SquaredEuclideanDistanceTo(b);
+                  });
+                const bool isInside = point.GetVectorFromOrigin().GetNorm() < 11.0;
+                return isInside ? static_cast<int>(nearest - centres.begin()) + 1 : 0;
+              }),
+      {},
+      {});
+    rhombic::ExtractSurfaces(mesh);
+    std::vector<rhombic::SceneSurface> surfaces;
+    for (const LabelSurface & label : mesh.labels)
+    {
+      surfaces.push_back(label.scene);
+    }
+    constexpr double distance = 0.2;
+    const auto fewer = rhombic::InFewerTriangles(surfaces, distance);
+    std::size_t all = 0;
+    std::size_t left = 0;
+    for (std::size_t n = 0; n < surfaces.size(); ++n)
+    {
+      const itk::TriangleSurface & whole = *surfaces[n].surface;
+      EXPECT_TRUE(ComputeTriangleSurfaceTopology(*fewer[n].surface).IsWatertight()) << surfaces[n].name;
+      EXPECT_LT(FarthestPoint(whole, *fewer[n].surface), 3.0 * distance) << surfaces[n].name;
+      all += whole.GetNumberOfTriangles();
+      left += fewer[n].surface->GetNumberOfTriangles();
+    }
+    EXPECT_LT(left, 3 * all / 4);
   }
 }
 

@@ -122,14 +122,6 @@ ExtractSurface(const LabelMesh & mesh, std::size_t label);
 void
 ExtractSurfaces(LabelMesh & mesh);
 
-/** The surface of each label, as ExtractSurfaces() has set it, with its normals and fewer triangles: each wall is
- * simplified once for both of its labels (itk::SimplifySheetForRendering()), but for the triangles at the curves where
- * walls meet.
- *
- * \param distance in mm by which a picture does not change */
-std::vector<itk::TriangleSurface::ConstPointer>
-SimplifySurfacesForRendering(const LabelMesh & mesh, double distance);
-
 } // namespace rhombic
 
 #endif

@@ -14,7 +14,6 @@
 #include "itkLabelsToFCCFilter.h"
 #include "itkProbabilitiesToFCCFilter.h"
 #include "itkRegionOfInterestImageFilter.h"
-#include "itkTriangleSurfaceForRendering.h"
 #include "itkTriangleSurfaceMeasures.h"
 
 #include <algorithm>
@@ -22,7 +21,6 @@
 #include <cstddef>
 #include <iterator>
 #include <limits>
-#include <map>
 #include <numeric>
 #include <utility>
 
@@ -276,83 +274,6 @@ SetNormals(itk::TriangleSurface & surface)
   }
 }
 
-/** The wall between two labels, or its triangles at the curves where it meets others. */
-struct Wall
-{
-  itk::LabelWalls::LabelPairType labels;
-  bool isAtCurve;
-  itk::TriangleSurface::TrianglesContainer triangles;
-};
-
-/** The wall of each pair of labels in two parts, their triangles in the order of the mesh. */
-std::vector<Wall>
-DivideIntoSheets(const itk::LabelWalls & walls)
-{
-  using PairType = itk::LabelWalls::LabelPairType;
-  const auto & pairs = walls.GetTriangleLabels();
-  std::vector<PairType> pairOfPoint(walls.GetNumberOfPoints()); // of its last triangle
-  std::vector<std::uint8_t> isOnCurve(walls.GetNumberOfPoints());
-  for (std::size_t n = 0; n < pairs.size(); ++n)
-  {
-    for (const std::uint32_t point : walls.GetTriangles()[n])
-    {
-      isOnCurve[point] |= pairOfPoint[point] != PairType{} && pairOfPoint[point] != pairs[n] ? 1 : 0;
-      pairOfPoint[point] = pairs[n];
-    }
-  }
-  std::map<std::pair<PairType, bool>, std::size_t> places;
-  std::vector<Wall> sheets;
-  for (std::size_t n = 0; n < pairs.size(); ++n)
-  {
-    const auto & [a, b, c] = walls.GetTriangles()[n];
-    const bool isAtCurve = (isOnCurve[a] | isOnCurve[b] | isOnCurve[c]) != 0;
-    const auto [place, isNew] = places.try_emplace({ pairs[n], isAtCurve }, sheets.size());
-    if (isNew)
-    {
-      sheets.push_back({ pairs[n], isAtCurve, {} });
-    }
-    sheets[place->second].triangles.push_back(walls.GetTriangles()[n]);
-  }
-  return sheets;
-}
-
-/** The surface of a label made of its walls, whose triangles may be fewer than those of \a whole, its surface with all
- * of them (LabelWalls::ExtractLabel()), of which it gets the points and normals. */
-itk::TriangleSurface::Pointer
-JoinSheets(const itk::LabelWalls & walls,
-           const std::vector<Wall> & sheets,
-           itk::LabelWalls::LabelType label,
-           const itk::TriangleSurface & whole)
-{
-  std::vector<std::uint32_t> numbers(walls.GetNumberOfPoints()); // of the points in the label's surface
-  for (std::size_t n = 0; n < walls.GetNumberOfTriangles(); ++n)
-  {
-    const auto & [front, back] = walls.GetTriangleLabels()[n];
-    for (const std::uint32_t point : walls.GetTriangles()[n])
-    {
-      numbers[point] |= front == label || back == label ? 1u : 0u;
-    }
-  }
-  std::exclusive_scan(numbers.begin(), numbers.end(), numbers.begin(), 0u);
-  const auto surface = itk::TriangleSurface::New();
-  surface->GetPoints() = whole.GetPoints();
-  surface->GetNormals() = whole.GetNormals();
-  for (const auto & [labels, isAtCurve, triangles] : sheets)
-  {
-    if (labels[0] != label && labels[1] != label)
-    {
-      continue;
-    }
-    for (const auto & [a, b, c] : triangles)
-    {
-      surface->GetTriangles().push_back(
-        { numbers[a], numbers[labels[1] == label ? b : c], numbers[labels[1] == label ? c : b] });
-    }
-  }
-  surface->RemoveUnusedPoints();
-  return surface;
-}
-
 /** Sets the volumes and pieces of the labels of the last layer, as far as it has all of their walls. */
 void
 MeasureLabels(const LabelPieces & pieces, bool isPart, LabelMesh & mesh)
@@ -524,32 +445,6 @@ ExtractSurfaces(LabelMesh & mesh)
 {
   ForEachOnThreads(mesh.labels.size(),
                    [&](std::size_t label) { mesh.labels[label].scene.surface = ExtractSurface(mesh, label); });
-}
-
-std::vector<itk::TriangleSurface::ConstPointer>
-SimplifySurfacesForRendering(const LabelMesh & mesh, double distance)
-{
-  std::vector<std::vector<Wall>> simplified;
-  for (const auto & walls : mesh.walls)
-  {
-    simplified.push_back(DivideIntoSheets(*walls));
-    ForEachOnThreads(simplified.back().size(), [&](std::size_t n) {
-      Wall & sheet = simplified.back()[n];
-      if (!sheet.isAtCurve)
-      {
-        sheet.triangles = itk::SimplifySheetForRendering(walls->GetPoints(), sheet.triangles, distance);
-      }
-    });
-  }
-  std::vector<itk::TriangleSurface::ConstPointer> surfaces(mesh.labels.size());
-  ForEachOnThreads(mesh.labels.size(), [&](std::size_t n) {
-    const std::size_t layer = mesh.labels[n].layer;
-    surfaces[n] = JoinSheets(*mesh.walls[layer],
-                             simplified[layer],
-                             static_cast<itk::LabelWalls::LabelType>(n + 1),
-                             *mesh.labels[n].scene.surface);
-  });
-  return surfaces;
 }
 
 } // namespace rhombic

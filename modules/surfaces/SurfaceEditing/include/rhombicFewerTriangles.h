@@ -10,8 +10,8 @@ namespace rhombic
 
 /** Surfaces to look at, in fewer triangles: about as near to the surfaces as a distance in mm by which a picture does
  * not change (itk::SimplifySheetForRendering()). Points are some of those of the surfaces, with their normals, colours
- * and values. Walls that two surfaces share are simplified once, so that the surfaces still share them; the curves
- * where walls meet stay.
+ * and values. Walls that two surfaces share are simplified once, so that the surfaces still share them; triangles at
+ * the curves where walls meet stay, so that closed surfaces stay closed.
  *
  * \param surfaces which stay as they are
  * \param distance mm, above 0

@@ -15,25 +15,48 @@ using Points = std::vector<std::uint32_t>;
 using Sides = std::array<std::uint32_t, 2>;
 using Triangles = itk::TriangleSurface::TrianglesContainer;
 
-/** A wall between two surfaces, or between one and the outside. */
+/** A wall between two surfaces, or between one and the outside: its triangles with a point on a curve where it meets
+ * another wall, or the rest. */
 struct SharedWall
 {
   Sides sides; ///< as in JoinedSurfaces
+  bool isAtCurve;
   Triangles triangles;
 };
+
+/** Whether triangles of several walls meet at each point. */
+std::vector<std::uint8_t>
+FindCurves(const JoinedSurfaces & joined)
+{
+  std::vector<Sides> sidesOfPoint(joined.surface->GetNumberOfPoints()); // of the point's last triangle
+  std::vector<std::uint8_t> isOnCurve(joined.surface->GetNumberOfPoints());
+  for (std::size_t n = 0; n < joined.sides.size(); ++n)
+  {
+    for (const std::uint32_t point : joined.surface->GetTriangles()[n])
+    {
+      Sides & last = sidesOfPoint[point];
+      isOnCurve[point] |= last != Sides{} && last != joined.sides[n] ? 1 : 0;
+      last = joined.sides[n];
+    }
+  }
+  return isOnCurve;
+}
 
 std::vector<SharedWall>
 WallsOf(const JoinedSurfaces & joined)
 {
-  std::map<Sides, Triangles> triangles;
+  const std::vector<std::uint8_t> isOnCurve = FindCurves(joined);
+  std::map<std::pair<Sides, bool>, Triangles> triangles;
   for (std::size_t n = 0; n < joined.sides.size(); ++n)
   {
-    triangles[joined.sides[n]].push_back(joined.surface->GetTriangles()[n]);
+    const auto & triangle = joined.surface->GetTriangles()[n];
+    const bool isAtCurve = (isOnCurve[triangle[0]] | isOnCurve[triangle[1]] | isOnCurve[triangle[2]]) != 0;
+    triangles[{ joined.sides[n], isAtCurve }].push_back(triangle);
   }
   std::vector<SharedWall> walls;
-  for (auto & [sides, ofSides] : triangles)
+  for (auto & [wall, ofWall] : triangles)
   {
-    walls.push_back({ sides, std::move(ofSides) });
+    walls.push_back({ wall.first, wall.second, std::move(ofWall) });
   }
   return walls;
 }
@@ -125,9 +148,12 @@ InFewerTriangles(const std::vector<SceneSurface> & surfaces, double distance, do
   const JoinedSurfaces joined = JoinSurfaces(surfaces);
   std::vector<SharedWall> walls = WallsOf(joined);
   ForEachOnThreads(walls.size(), [&](std::size_t n) {
-    Triangles & triangles = walls[n].triangles;
-    const auto least = static_cast<itk::SizeValueType>(leastShare * static_cast<double>(triangles.size()));
-    triangles = itk::SimplifySheetForRendering(joined.surface->GetPoints(), triangles, distance, least);
+    if (!walls[n].isAtCurve)
+    {
+      Triangles & triangles = walls[n].triangles;
+      const auto least = static_cast<itk::SizeValueType>(leastShare * static_cast<double>(triangles.size()));
+      triangles = itk::SimplifySheetForRendering(joined.surface->GetPoints(), triangles, distance, least);
+    }
   });
   std::vector<SceneSurface> fewer;
   Points numbers(joined.surface->GetNumberOfPoints());
