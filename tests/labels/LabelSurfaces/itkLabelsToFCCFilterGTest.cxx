@@ -306,6 +306,44 @@ TEST(LabelsToFCCFilter, SpecksOfAnySizeStay)
 }
 
 /** A map that is full to its border is closed at the outer faces of its voxels. */
+TEST(LabelsToFCCFilter, LabelsDoNotMeetAcrossBackground)
+{
+  std::mt19937 random(4096);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (const double slices : { 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 3.0, 3.0, 3.0, 5.0, 5.0, 5.0 })
+  {
+    // Two halves of a block with a slanted, curved gap about a voxel wide between them.
+    const double slope = 0.5 * uniform(random);
+    const double turn = 0.5 * uniform(random);
+    const double bow = 0.01 * uniform(random);
+    const double width = 0.6 + 0.08 * uniform(random);
+    const auto map =
+      MakeMap({ { 28, 28, static_cast<itk::SizeValueType>(28.0 / slices) } }, slices, [&](const Point & p) {
+        const double height = p[0] - slope * p[1] - turn * p[2] / slices - bow * p[1] * p[1];
+        const double far = std::max({ std::abs(p[0]), std::abs(p[1]), std::abs(p[2]) });
+        return far > 11.0 || std::abs(height) < width ? 0 : height < 0.0 ? 4 : 9;
+      });
+    bool touch = false; // by faces of voxels
+    for (itk::ImageRegionConstIteratorWithIndex<LabelImage> it(map, map->GetBufferedRegion()); !it.IsAtEnd(); ++it)
+    {
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        auto next = it.GetIndex();
+        ++next[axis];
+        const int other = map->GetBufferedRegion().IsInside(next) ? map->GetPixel(next) : 0;
+        touch = touch || (it.Get() != 0 && other != 0 && other != it.Get());
+      }
+    }
+    const auto walls = MakeWalls(map);
+    const auto & sides = walls->GetTriangleLabels();
+    const auto shared =
+      std::count_if(sides.begin(), sides.end(), [](const auto & pair) { return pair[0] != 0 && pair[1] != 0; });
+    EXPECT_EQ(walls->FindLabels(), (std::vector<std::uint16_t>{ 4, 9 }));
+    EXPECT_FALSE(touch);
+    EXPECT_EQ(shared, 0) << slices << " mm, slope " << slope << ", turn " << turn << ", width " << width;
+  }
+}
+
 TEST(LabelsToFCCFilter, LabelsEndAtTheBorderOfTheMap)
 {
   const auto map = MakeMap({ { 12, 10, 4 } }, 3.0, [](const Point & p) { return p[0] < 0.0 ? 1 : 2; });

@@ -87,6 +87,39 @@ LabelTopology::MeetsGroup(LabelType label, const NeighborsType & neighbors) cons
          });
 }
 
+bool
+LabelTopology::PassesBackground(SizeValueType site, unsigned int direction) const
+{
+  const FCCLattice::SiteType from = FCCLattice::SiteOf(m_Labels.ComputeIndex(static_cast<OffsetValueType>(site)));
+  const FCCLattice::SiteType step = FCCCells::StepOf(direction);
+  for (const double share : { 0.25, 0.5, 0.75 })
+  {
+    std::array<double, 3> place;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      place[axis] = static_cast<double>(from[axis]) + share * static_cast<double>(step[axis]);
+    }
+    if (m_IsBackground(m_Labels.TransformLatticeToPhysicalPoint<double>(place)))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool
+LabelTopology::MeetsAcrossBackground(SizeValueType site, LabelType label, const NeighborsType & neighbors) const
+{
+  for (unsigned int n = 0; n < FCCCells::Directions && label != 0; ++n)
+  {
+    if (neighbors[n] != 0 && neighbors[n] != label && this->PassesBackground(site, n))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 void
 LabelTopology::Give(SizeValueType site, LabelType label)
 {
@@ -174,7 +207,7 @@ bool
 LabelTopology::IsAllowed(const Change & change) const
 {
   const NeighborsType neighbors = this->FindNeighbors(change.site);
-  return !m_IsLocked[change.site] && !this->MeetsGroup(change.label, neighbors) &&
+  return !m_IsLocked[change.site] && this->IsApart(change.site, change.label, neighbors) &&
          FCCCells::IsDisk(SetOf(m_Labels.GetBufferPointer()[change.site], neighbors)) &&
          FCCCells::IsDisk(SetOf(change.label, neighbors));
 }
@@ -203,7 +236,7 @@ LabelTopology::FindReplacement(SizeValueType site)
   for (const LabelType other : neighbors)
   {
     const float weight = this->GetWeight(site, other);
-    if (other != label && weight > replacement.gain && !this->MeetsGroup(other, neighbors))
+    if (other != label && weight > replacement.gain && this->IsApart(site, other, neighbors))
     {
       replacement = { site, other, weight };
     }
@@ -212,42 +245,53 @@ LabelTopology::FindReplacement(SizeValueType site)
   return replacement;
 }
 
+template <typename TMeets>
 void
-LabelTopology::SeparateGroups()
+LabelTopology::Separate(const TMeets & meets, bool canBeAlone)
+{
+  std::vector<Change> meetings;
+  for (const Change & meeting : this->FindWeights([&](SizeValueType site, LabelType label) {
+         return label != 0 && label == this->LabelOf(site) && meets(site);
+       }))
+  {
+    meetings.push_back(this->FindReplacement(meeting.site));
+  }
+  SortByGain(meetings);
+  ChangeEach(meetings, [&](const Change & meeting) {
+    if (!meets(meeting.site))
+    {
+      return true;
+    }
+    const unsigned int same = SetOf(this->LabelOf(meeting.site), this->FindNeighbors(meeting.site));
+    const bool canChange = FCCCells::IsDisk(same) || (canBeAlone && same == 0);
+    if (canChange)
+    {
+      this->Give(meeting.site, this->FindReplacement(meeting.site).label);
+    }
+    return canChange;
+  });
+  this->SortWeights();
+}
+
+void
+LabelTopology::SeparateLabels()
 {
   std::vector<std::size_t> sizes(std::numeric_limits<LabelType>::max() + std::size_t{ 1 }); // of groups
   for (const LabelType group : m_Groups)
   {
     ++sizes[group];
   }
-  const auto canMeet = [&](LabelType label) { return label < m_Groups.size() && sizes[m_Groups[label]] > 1; };
-  std::vector<Change> meetings;
-  for (const Change & meeting : this->FindWeights([&](SizeValueType site, LabelType label) {
-         return canMeet(label) && label == this->LabelOf(site) && this->MeetsGroup(label, this->FindNeighbors(site));
-       }))
-  {
-    meetings.push_back(this->FindReplacement(meeting.site));
-  }
-  SortByGain(meetings);
-  for (const bool canBeAlone : { false, true })
-  {
-    ChangeEach(meetings, [&](const Change & meeting) {
-      const LabelType own = this->LabelOf(meeting.site);
-      const NeighborsType neighbors = this->FindNeighbors(meeting.site);
-      if (!this->MeetsGroup(own, neighbors))
-      {
-        return true;
-      }
-      const unsigned int same = SetOf(own, neighbors);
-      const bool canChange = FCCCells::IsDisk(same) || (canBeAlone && same == 0);
-      if (canChange)
-      {
-        this->Give(meeting.site, this->FindReplacement(meeting.site).label);
-      }
-      return canChange;
-    });
-  }
-  this->SortWeights();
+  const auto meetsGroup = [&](SizeValueType site) {
+    const LabelType label = this->LabelOf(site);
+    return label < m_Groups.size() && sizes[m_Groups[label]] > 1 && this->MeetsGroup(label, this->FindNeighbors(site));
+  };
+  this->Separate(meetsGroup, false);
+  this->Separate(meetsGroup, true);
+  m_KeepsGaps = true;
+  const auto bridgesGap = [&](SizeValueType site) {
+    return !m_IsLocked[site] && this->MeetsAcrossBackground(site, this->LabelOf(site), this->FindNeighbors(site));
+  };
+  this->Separate(bridgesGap, false);
 }
 
 void
@@ -266,7 +310,7 @@ LabelTopology::PlaceLostLabels()
     const NeighborsType neighbors = this->FindNeighbors(place.site);
     const LabelType own = this->LabelOf(place.site);
     if (!hasSites[place.label] && (own == 0 || FCCCells::IsDisk(SetOf(own, neighbors))) &&
-        !this->MeetsGroup(place.label, neighbors))
+        this->IsApart(place.site, place.label, neighbors))
     {
       this->Give(place.site, place.label);
       hasSites[place.label] = true;
@@ -321,7 +365,7 @@ LabelTopology::Assign(std::vector<Candidate> candidates)
   this->SortWeights();
   this->AddOffsets({});
   this->LowerRaised();
-  this->SeparateGroups();
+  this->SeparateLabels();
   this->PlaceLostLabels();
   this->AddOffsets({});
 }

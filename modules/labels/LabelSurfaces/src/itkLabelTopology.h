@@ -5,7 +5,9 @@
 #include "itkFCCImage.h"
 #include "itkFCCLabelWeights.h"
 
+#include <functional>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace itk
@@ -22,8 +24,10 @@ namespace itk
  *
  * Labels of one group are kept apart, so that they can be merged later: no edge of the lattice's tetrahedra joins two
  * labels of a group. Where an edge does, the site whose label has the least advantage in weight gets the label of a
- * neighbour or the background 0, if its neighbours of its own label are a disk, or it has no such neighbour. Labels
- * that have no site then get the site where their weight is largest, if the label of that site can spare it.
+ * neighbour or the background 0, if its neighbours of its own label are a disk, or it has no such neighbour. Any labels
+ * are kept apart in the same way where an edge that joins them passes voxels of the background, unless the site is
+ * locked or has no neighbour of its own label. Labels that have no site then get the site where their weight is
+ * largest, if the label of that site can spare it.
  *
  * Where another label has a larger weight than the label of a site in the end, the weight of the site's label is raised
  * above it. */
@@ -35,11 +39,16 @@ public:
 
   /** \param labels of largest weight at each site
    * \param weights sorted
-   * \param groups of each label; 0, or past the end: no group */
-  LabelTopology(LatticeType & labels, FCCLabelWeights & weights, const std::vector<LabelType> & groups)
+   * \param groups of each label; 0, or past the end: no group
+   * \param isBackground whether a point in the world is in a voxel of the background */
+  LabelTopology(LatticeType & labels,
+                FCCLabelWeights & weights,
+                const std::vector<LabelType> & groups,
+                std::function<bool(const Point<double, 3> &)> isBackground)
     : m_Labels(labels)
     , m_Weights(weights)
     , m_Groups(groups)
+    , m_IsBackground(std::move(isBackground))
     , m_IsLocked(labels.GetLargestPossibleRegion().GetNumberOfPixels())
   {}
 
@@ -94,6 +103,21 @@ private:
   bool
   MeetsGroup(LabelType label, const NeighborsType & neighbors) const;
 
+  /** Whether the edge from a site to its neighbour in a direction passes voxels of the background. */
+  bool
+  PassesBackground(SizeValueType site, unsigned int direction) const;
+
+  /** Whether an edge that passes voxels of the background would join a label at a site and another label. */
+  bool
+  MeetsAcrossBackground(SizeValueType site, LabelType label, const NeighborsType & neighbors) const;
+
+  /** Whether a label at a site is apart from the labels that it must not meet. */
+  bool
+  IsApart(SizeValueType site, LabelType label, const NeighborsType & neighbors) const
+  {
+    return !this->MeetsGroup(label, neighbors) && !(m_KeepsGaps && this->MeetsAcrossBackground(site, label, neighbors));
+  }
+
   /** Gives a site to a label, and stores weights for the label before and after. SortWeights() must follow. */
   void
   Give(SizeValueType site, LabelType label);
@@ -116,7 +140,7 @@ private:
   std::vector<Change>
   FindChanges(std::vector<double> offsets);
 
-  /** Whether a change keeps the topology of both labels, and the labels of groups apart. */
+  /** Whether a change keeps the topology of both labels, and labels apart that must not meet. */
   bool
   IsAllowed(const Change & change) const;
 
@@ -129,9 +153,15 @@ private:
   Change
   FindReplacement(SizeValueType site);
 
-  /** Changes the labels of sites that have a neighbour of another label of the same group. */
+  /** Changes the labels of sites for which meets(site) is true.
+   * \param canBeAlone whether sites without a neighbour of their own label may change, too */
+  template <typename TMeets>
   void
-  SeparateGroups();
+  Separate(const TMeets & meets, bool canBeAlone);
+
+  /** Separates the labels of groups, then all labels where background lies between them. */
+  void
+  SeparateLabels();
 
   /** Gives a site to each label that has weights but no site. */
   void
@@ -144,6 +174,8 @@ private:
   LatticeType & m_Labels;
   FCCLabelWeights & m_Weights;
   const std::vector<LabelType> & m_Groups;
+  std::function<bool(const Point<double, 3> &)> m_IsBackground;
+  bool m_KeepsGaps{ false }; ///< whether labels must not meet across background
   std::vector<bool> m_IsLocked;
   std::vector<Change> m_Raised; ///< sites whose label's weight was raised, and by how much
   std::set<SizeValueType> m_UnsortedRows;

@@ -129,6 +129,21 @@ public:
            (this->GetNearest(2, index[2]) * size[1] + this->GetNearest(1, index[1])) * size[0];
   }
 
+  /** Whether the voxel of the map nearest to a point in the world, beyond the map that at its border, is background. */
+  bool
+  IsBackground(Point<double, 3> point) const
+  {
+    if (!m_SliceOrigins.empty())
+    {
+      Index<3> first = m_Grid->GetLargestPossibleRegion().GetIndex();
+      const std::size_t slice = this->FindSlice(point);
+      first[2] += static_cast<IndexValueType>(slice);
+      point -= m_SliceOrigins[slice] - m_Grid->TransformIndexToPhysicalPoint<double>(first);
+    }
+    const Index<3> voxel = m_Grid->TransformPhysicalPointToIndex(point);
+    return this->GetNearestRow(voxel)[this->GetNearest(0, voxel[0])] == 0;
+  }
+
   /** Depth along one axis below the outer faces of the map, negative beyond it. */
   float
   GetDepth(unsigned int axis, IndexValueType index) const
@@ -164,6 +179,25 @@ private:
       const double share = position - static_cast<double>(slice);
       m_SliceOrigins.push_back(origins[slice] + (origins[slice + 1] - origins[slice]) * share + toFirst);
     }
+    const auto axis = [this](unsigned int column) {
+      return Vector<double, 3>(m_Labels.GetDirection().GetVnlMatrix().get_column(column).data_block());
+    };
+    m_Normal = CrossProduct(axis(0), axis(1));
+    m_Normal *= m_Normal * (m_SliceOrigins.back() - m_SliceOrigins.front()) < 0.0 ? -1.0 : 1.0;
+    for (const auto & origin : m_SliceOrigins)
+    {
+      m_Heights.push_back((origin - m_SliceOrigins.front()) * m_Normal);
+    }
+  }
+
+  /** The refined slice nearest to a point. */
+  std::size_t
+  FindSlice(const Point<double, 3> & point) const
+  {
+    const double height = (point - m_SliceOrigins.front()) * m_Normal;
+    const auto after = std::lower_bound(m_Heights.begin() + 1, m_Heights.end() - 1, height);
+    const auto nearest = height - *(after - 1) < *after - height ? after - 1 : after;
+    return static_cast<std::size_t>(nearest - m_Heights.begin());
   }
 
   const LabelImage & m_Labels;
@@ -171,6 +205,8 @@ private:
   ImageRegion<3> m_MapRegion;
   FieldImage::Pointer m_Grid;
   SliceOrigins m_SliceOrigins;
+  Vector<double, 3> m_Normal;    ///< of slices at uneven steps, in their order
+  std::vector<double> m_Heights; ///< of the origins along the normal
 };
 
 // ---- Passes, in the order of their use
@@ -658,7 +694,8 @@ LabelsToFCCFilter::GenerateData()
     addTo(candidates, boxes.front().candidates);
   }
   strongest.SortWeights();
-  LabelTopology topology(*labels, *weights, m_Groups);
+  LabelTopology topology(
+    *labels, *weights, m_Groups, [&map](const Point<double, 3> & point) { return map.IsBackground(point); });
   topology.Assign(std::move(candidates));
   m_VoxelVolumes = ComputeVoxelVolumes(image, origins);
   LabelsToKeep keep{ m_VoxelVolumes, std::vector<ImageRegion<3>>(m_VoxelVolumes.size()) };
