@@ -163,6 +163,19 @@ TEST(Drawing, TextLiesWhereItIsAligned)
   }
 }
 
+TEST(Drawing, WidthsOfTextGrowWithItsSize)
+{
+  const Drawing drawing(100, 100);
+  TextStyle style;
+  style.size = 100.0;
+  const std::string text = "urinary bladder, iliopsoas";
+  const double width = drawing.WidthOf(text, style) / style.size;
+  for (style.size = 7.0; style.size < 16.0; style.size += 0.3)
+  {
+    EXPECT_NEAR(drawing.WidthOf(text, style) / style.size, width, 0.01 * width) << style.size;
+  }
+}
+
 TEST(Drawing, WideTextFitsItsWidth)
 {
   TextStyle style;

@@ -199,6 +199,8 @@ Layout
 NewLayout(cairo_t * context, const std::string & text, const TextStyle & style)
 {
   Layout layout(pango_cairo_create_layout(context));
+  pango_context_set_round_glyph_positions(pango_layout_get_context(layout.get()),
+                                          FALSE); // gaps in words at small sizes
   const std::string line = ToOneLine(text);
   pango_layout_set_text(layout.get(), line.data(), static_cast<int>(line.size()));
   PangoAttrList * const attributes = pango_attr_list_new();
@@ -216,18 +218,12 @@ NewLine(cairo_t * context, const std::string & text, const TextStyle & style)
   const double width = ExtentsOf(layout).width;
   if (style.largestWidth > 0.0 && width > style.largestWidth)
   {
-    constexpr double step = 0.98; // letters have widths of whole pixels, so that smaller ones may be as wide
-    double shrinking = 0.995 * style.largestWidth / width;
-    do
+    const double shrinking = std::max(0.995 * style.largestWidth / width, SmallestShrinking);
+    SetFont(layout.get(), style.size * shrinking, style.bold);
+    if (ExtentsOf(layout).width <= style.largestWidth)
     {
-      shrinking = std::max(shrinking, SmallestShrinking);
-      SetFont(layout.get(), style.size * shrinking, style.bold);
-      if (ExtentsOf(layout).width <= style.largestWidth)
-      {
-        return layout;
-      }
-      shrinking *= step;
-    } while (shrinking > SmallestShrinking);
+      return layout;
+    }
     pango_layout_set_width(layout.get(), static_cast<int>(style.largestWidth * PANGO_SCALE));
     pango_layout_set_ellipsize(layout.get(), PANGO_ELLIPSIZE_MIDDLE);
   }
