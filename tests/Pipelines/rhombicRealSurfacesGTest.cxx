@@ -5,7 +5,10 @@
 #include "rhombicSurfaceIO.h"
 #include "rhombicTemporaryFolder.h"
 
+#include "detail/itkTrianglesOfPoints.h"
 #include "itkTriangleSurfaceAudit.h"
+#include "itkTriangleSurfaceIntersections.h"
+#include "itkTriangleTree.h"
 
 #include <gtest/gtest.h>
 
@@ -65,6 +68,28 @@ TEST_P(RealSurfaces, AreSolidsInTheirFiles)
     EXPECT_TRUE(audit.BoundsSolid()) << mode << ": " << audit;
     EXPECT_FALSE(audit.intersections.isSampled);
   }
+}
+
+TEST(RealSurfacesOfAChest, HaveNoFoldsThatAreHardToUntangle)
+{
+  const char * const scans = std::getenv("RHOMBIC_SCANS");
+  if (scans == nullptr)
+  {
+    GTEST_SKIP() << "RHOMBIC_SCANS is not set";
+  }
+  const auto scan = rhombic::ReadScan(std::filesystem::path(scans) / "ct_chest_lidc0314_dicom_jpegls");
+  const auto lattice = rhombic::ScanToLattice(scan, {}, {});
+  rhombic::SurfaceRequest request;
+  request.name = "bone";
+  request.isovalue = 250.5;
+  const auto & grid = rhombic::GeometryOf(scan.image);
+  const auto extracted = rhombic::LatticeToSurfaces(lattice, { request }, Mode::Tetrahedra, {}, &grid).front().surface;
+  const auto surface = itk::TriangleSurface::New();
+  surface->Graft(extracted);
+  const double spacing = std::visit([](const auto & image) { return rhombic::MeanSpacingOf(*image); }, lattice);
+  rhombic::RefineSurface(*surface, {}, spacing, "bone", {});
+  const itk::TriangleTree tree(*surface);
+  EXPECT_EQ(itk::FindCrossingTriangles(tree, itk::TrianglesOfPoints(*surface)).size(), 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, RealSurfaces, testing::ValuesIn(realSurfaces), [](const auto & surface) {

@@ -23,7 +23,8 @@ struct TriangleSurfaceUntanglingReport
  * In each round, the points of crossing triangles move half way to the mean of their neighbours, which resolves most
  * folds. If folds remain, later rounds also push the points outwards and inwards by turns, which separates sheets. No
  * point moves farther than \a maximumMove mm. Ends after 16 rounds without progress, or after 40, with the state that
- * has the fewest crossing triangles and no triangle without area.
+ * has the fewest crossing triangles and no triangle without area. If triangles cross then, as many rounds follow from
+ * that state, in which only moves stay after which fewer triangles cross.
  *
  * Runs on several threads, with the same bytes for any number of them; time is one search for crossings plus rounds
  * over the crossing triangles only. Memory about 60 bytes per triangle. Throws ExceptionObject if \a maximumMove is not

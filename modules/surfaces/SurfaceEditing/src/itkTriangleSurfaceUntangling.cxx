@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <iterator>
 #include <unordered_map>
+#include <utility>
 
 namespace itk
 {
@@ -122,21 +123,44 @@ HaveAreas(const TriangleSurface & surface, const Ids & triangles)
   });
 }
 
+/** Puts points at their best places, or back to the original ones. */
+void
+PutPoints(TriangleSurface & surface, const Places & original, const Places & best)
+{
+  for (const auto & [point, place] : original)
+  {
+    const auto found = best.find(point);
+    surface.GetPoints()[point] = found != best.end() ? found->second : place;
+  }
+}
+
+/** Which rounds of moves stay. */
+enum class KeptRounds
+{
+  All,
+  Better ///< those after which fewer triangles cross; the moves of others are undone
+};
+
 /** Moves points in rounds, notes where they were in \a original, and leaves the surface in the best state found.
- * Returns the number of crossing triangles then. */
-std::size_t
+ * Returns the crossing triangles then. */
+Ids
 Untangle(TriangleSurface & surface,
          TriangleTree & tree,
          const TrianglesOfPoints & fans,
          double maximumMove,
+         KeptRounds kept,
          Ids crossing,
          Places & original,
          rhombic::StagedProgress & progress)
 {
-  progress.Begin(1.0, MostUntanglingRounds);
+  progress.Begin(kept == KeptRounds::All ? 0.9 : 1.0, MostUntanglingRounds);
   Ids touched; // triangles with a point that was moved
   Places best;
-  std::size_t fewest = crossing.size();
+  for (const auto & [point, place] : original)
+  {
+    best[point] = surface.GetPoints()[point];
+  }
+  Ids fewest = crossing;
   int lastBetter = 0;
   for (int round = 0; round < MostUntanglingRounds && round <= lastBetter + Patience && !crossing.empty(); ++round)
   {
@@ -160,21 +184,22 @@ Untangle(TriangleSurface & surface,
     SortUnique(touched);
     crossing = FindCrossingTriangles(tree, fans, changed);
     progress.Completed(1);
-    if (crossing.size() < fewest && HaveAreas(surface, touched))
+    if (crossing.size() < fewest.size() && HaveAreas(surface, touched))
     {
-      fewest = crossing.size();
+      fewest = crossing;
       lastBetter = round;
       for (const auto & [point, place] : original)
       {
         best[point] = surface.GetPoints()[point];
       }
     }
+    else if (kept == KeptRounds::Better)
+    {
+      PutPoints(surface, original, best);
+      crossing = fewest;
+    }
   }
-  for (const auto & [point, place] : original)
-  {
-    const auto found = best.find(point);
-    surface.GetPoints()[point] = found != best.end() ? found->second : place;
-  }
+  PutPoints(surface, original, best);
   surface.Modified();
   return fewest;
 }
@@ -201,8 +226,8 @@ UntangleTriangleSurface(TriangleSurface & surface,
   }
   rhombic::StagedProgress progress(report);
   const TrianglesOfPoints fans(surface);
-  const Ids crossing = candidates ? FindCrossingTriangles(surface, fans, *candidates)
-                                  : FindCrossingTriangles(tree, fans, TriangleContact::Crossing, &progress, 0.5);
+  Ids crossing = candidates ? FindCrossingTriangles(surface, fans, *candidates)
+                            : FindCrossingTriangles(tree, fans, TriangleContact::Crossing, &progress, 0.5);
   if (crossing.empty())
   {
     return {};
@@ -210,7 +235,11 @@ UntangleTriangleSurface(TriangleSurface & surface,
   Places original;
   TriangleSurfaceUntanglingReport result;
   result.crossingBefore = crossing.size();
-  result.crossingAfter = Untangle(surface, tree, fans, maximumMove, crossing, original, progress);
+  for (const KeptRounds kept : { KeptRounds::All, KeptRounds::Better })
+  {
+    crossing = Untangle(surface, tree, fans, maximumMove, kept, std::move(crossing), original, progress);
+  }
+  result.crossingAfter = crossing.size();
   for (const auto & [point, place] : original)
   {
     const auto & moved = surface.GetPoints()[point];
