@@ -382,6 +382,35 @@ TEST_F(CompareLabels, PlacesThatCannotBeCompared)
   this->ExpectFailure(settings, FailureKind::Usage, "tolerances");
 }
 
+TEST_F(CompareLabels, TransformsWithOtherParametersThanTheirsAreRefused)
+{
+  this->Write("a.nrrd", Cubes, Ball(8.0));
+  CompareLabelsSettings settings = this->SettingsFor("a.nrrd", "a.nrrd");
+  settings.transform = this->PathOf("wrong.tfm");
+  const std::string affine = "Transform: AffineTransform_double_3_3\n";
+  const std::string numbers = "Parameters: 1 0 0 0 1 0 0 0 1 0 0 0\n";
+  const std::string centre = "FixedParameters: 0 0 0\n";
+  for (const auto & [text, words] :
+       { std::pair{ affine + "Parameters: 1 0 0\n" + centre, "3 parameters" },
+         { affine + numbers, "0 fixed" },
+         { affine + centre, "0 parameters" },
+         { numbers + centre, "no transform" },
+         { "Transform: Euler3DTransform_double_3_3\nParameters: 0 0 0\nFixedParameters: 0 0 0 0\n", "3 parameters" },
+         { "Transform: NoSuchTransform_double_3_3\n" + numbers + centre, "NoSuchTransform" },
+         { "Transform: AffineTransform_double_2_2\nParameters: 1 0 0 1 0 0\nFixedParameters: 0 0\n", "3-D" },
+         { affine + "Parameters: 1 0 0 0 1 0 0 0 1 0 0 nan\n" + centre, "nan" },
+         { affine + "Parameters: 1 0 0 0 1 0 0 0 1 0 0 x\n" + centre, "x" },
+         { affine + numbers + centre + affine + numbers + centre, "several" } })
+  {
+    this->WriteText("wrong.tfm", text);
+    this->ExpectFailure(settings, FailureKind::Unreadable, words);
+  }
+  this->WriteText("wrong.tfm", "Transform: Euler3DTransform_double_3_3\nParameters: 0 0 0 0 0 0\n" + centre);
+  EXPECT_EQ(this->Run(settings).size(), 1u);
+  this->WriteText("wrong.tfm", "Transform: AffineTransform_float_3_3\n" + numbers + centre);
+  EXPECT_EQ(this->Run(settings).size(), 1u);
+}
+
 TEST_F(CompareLabels, MirroredMapsAreDoubted)
 {
   const auto organs = [](double side) -> LabelFunction {
