@@ -712,6 +712,32 @@ TEST_F(DicomFolder, UnsupportedKindsOfImagesAreNamed)
   EXPECT_EQ(kindWith("larger than", [](DicomTestFile & file) { file.SetText(0x00281053, "DS", "1e300"); }),
             FailureKind::Unreadable);
   EXPECT_EQ(kindWith("samples", [](DicomTestFile & file) { file.SetShort(0x00280002, 0); }), FailureKind::Unreadable);
+  EXPECT_EQ(kindWith("sign", [](DicomTestFile & file) { file.SetShort(0x00280103, 2); }), FailureKind::Unreadable);
+  EXPECT_EQ(kindWith("sign", [](DicomTestFile & file) { file.Remove(0x00280103); }), FailureKind::Unreadable);
+}
+
+TEST_F(DicomFolder, SlicesWithoutTheScalingOfOthersAreRefused)
+{
+  for (const std::size_t unscaled : { 0, 1, 3 })
+  {
+    for (const bool isEmpty : { false, true })
+    {
+      for (std::size_t k = 0; k < 4; ++k)
+      {
+        DicomTestFile file = MakeSlice(k);
+        for (const std::uint32_t tag : { 0x00281052, 0x00281053 })
+        {
+          file.Remove(tag);
+          if (k != unscaled || isEmpty)
+          {
+            file.SetText(tag, "DS", k == unscaled ? "" : tag == 0x00281053 ? "2" : "-1000");
+          }
+        }
+        file.Write(m_Folder / std::to_string(k));
+      }
+      EXPECT_EQ(KindOfReading(m_Folder, "no RescaleSlope"), FailureKind::Unreadable) << unscaled;
+    }
+  }
 }
 
 TEST_F(DicomFolder, EnhancedImagesAreRescaled)

@@ -210,6 +210,20 @@ LeaveOut(const FileFailures & failures, std::vector<DicomSlice> slices, const Sc
   return slices;
 }
 
+/** Throws Failure(Unreadable) if a slice lacks slope and intercept that others have. */
+void
+RequireScaling(const std::vector<DicomSlice> & slices)
+{
+  const auto isScaled = [](const DicomSlice & slice) { return slice.isScaled; };
+  const auto unscaled = std::find_if_not(slices.begin(), slices.end(), isScaled);
+  if (unscaled != slices.end() && std::any_of(slices.begin(), slices.end(), isScaled))
+  {
+    RefuseVolume(unscaled->file->path,
+                 "it has no RescaleSlope and RescaleIntercept, which other slices have; export the series again from "
+                 "its source");
+  }
+}
+
 /** Stacks slices without those of files that failed. Files that fail when they are read are left out like a gap, too,
  * if the options accept gaps. */
 UnreadScan
@@ -220,6 +234,7 @@ OpenStack(const std::vector<DicomSlice> & all,
 {
   const Scan found = scan;
   std::vector<DicomSlice> slices = LeaveOut(failures, all, options, scan);
+  RequireScaling(slices);
   const DicomStack stack = StackSlices(slices, options);
   scan.image = NewDicomImage(slices, stack.geometry);
   scan.sliceOrigins = stack.sliceOrigins;

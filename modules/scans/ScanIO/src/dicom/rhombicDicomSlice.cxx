@@ -150,6 +150,10 @@ FindBitsRefusal(const DicomDataSet & dataSet, const DicomPixelFormat & format)
     return "its pixels have " + std::to_string(format.bitsStored) + " of " + std::to_string(format.bitsAllocated) +
            " bits, which is not supported";
   }
+  if (dataSet.GetShort(DicomTags::PixelRepresentation).value_or(2) > 1 && !IsSegmentation(dataSet))
+  {
+    return "it does not say whether its pixels have a sign (PixelRepresentation)";
+  }
   return "";
 }
 
@@ -171,6 +175,7 @@ ReadScaling(const DicomDataSet & dataSet, DicomSlice & slice)
       dataSet.GetText(tag).empty() && !(isGiven && dataSet.Has(tag)); // an empty one beside the other is not
     return isAbsent ? absent : numbers.size() == 1 ? numbers[0] : std::nan("");
   };
+  slice.isScaled = isGiven;
   slice.slope = read(DicomTags::RescaleSlope, 1);
   slice.intercept = read(DicomTags::RescaleIntercept, 0);
   if (slice.refusal.empty() && (!std::isfinite(slice.slope) || slice.slope == 0 || !std::isfinite(slice.intercept)))

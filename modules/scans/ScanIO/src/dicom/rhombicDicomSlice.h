@@ -124,6 +124,7 @@ struct DicomSlice
   std::array<std::string, NumberOfDistinctions> distinctions;
   double slope = 1;
   double intercept = 0;
+  bool isScaled = false;           ///< whether the header has slope or intercept
   double step = 1;                 ///< SpacingBetweenSlices of a plain MR image in mm; 1 when unknown
   std::optional<SlicePlane> plane; ///< absent when the header has no usable one
   std::string planeProblem;        ///< why it is absent
