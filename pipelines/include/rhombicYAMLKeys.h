@@ -3,6 +3,7 @@
 
 #include "rhombicWording.h"
 
+#include <nlohmann/json.hpp>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -19,6 +20,21 @@ class YAMLMistake : public std::runtime_error
 {
   using std::runtime_error::runtime_error;
 };
+
+/** Parses YAML, which is text in UTF-8. Throws YAMLMistake for other bytes, and YAML::Exception. */
+inline YAML::Node
+LoadYAML(const std::string & text)
+{
+  try
+  {
+    nlohmann::json(text).dump();
+  }
+  catch (const nlohmann::json::exception &)
+  {
+    throw YAMLMistake("is no text in UTF-8");
+  }
+  return YAML::Load(text);
+}
 
 /** Throws YAMLMistake for a node that is no map, for a key that is there twice, and for one that \a known does not
  * have, as "has the unknown key 'vew' in line 7 (did you mean view?)". */

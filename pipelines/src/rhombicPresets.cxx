@@ -138,7 +138,7 @@ ParsePreset(const std::string & yaml, const std::string & source)
   };
   try
   {
-    const YAML::Node root = YAML::Load(yaml);
+    const YAML::Node root = LoadYAML(yaml);
     RefuseOtherKeys(root, { "name", "description", "denoise", "removes", "surfaces", "rules" });
     Preset preset;
     preset.name = root["name"].as<std::string>();

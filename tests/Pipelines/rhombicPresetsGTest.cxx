@@ -157,6 +157,7 @@ TEST(Presets, RefuseDamagedFiles)
                              "name: x\nsurfaces: [{name: a, isovalue: 1, isovalue: 2}]",
                              "name: x\nsurfaces: [{name: , isovalue: 1}]",
                              "name: x\ndenoise: much\nsurfaces: [{name: a, isovalue: 1}]",
+                             "name: x\ndescription: \xE4\nsurfaces: [{name: a, isovalue: 1}]",
                              "name: [x\n" })
   {
     const auto sentence =

@@ -81,6 +81,7 @@ def check_nifti(data, answer):
     total = math.prod(size)
     assert 3 <= count <= 7 and volumes == 1 and min(size) > 0
     values = struct.unpack_from(f"{order}{total}{fmt}", data, int(get("f", 108)))
+    values = [single(value) for value in values] if fmt == "d" else values
     slope, intercept = get("f", 112), get("f", 116)
     if slope != 0 and not math.isnan(slope):
         values = [single(slope * value + intercept) if math.isfinite(value) else value for value in values]
@@ -224,6 +225,8 @@ def slice_of(data):
         rows, columns, allocated, stored, high = short[0x280010], short[0x280011], short[0x280100], short[0x280101], short[0x280102]
         turn, spacing = numbers_of(elements, 0x200037), numbers_of(elements, 0x280030)
         position = numbers_of(elements, 0x200032)
+        if len(position) != 3:
+            return None
         pixels = elements[0x7FE00010][0]
         codes = struct.unpack_from(f"<{rows * columns}{'H' if allocated == 16 else 'B' if allocated == 8 else 'I'}", pixels)
         slope, intercept = numbers_of(elements, 0x281053, [1.0])[0], numbers_of(elements, 0x281052, [0.0])[0]
@@ -311,7 +314,8 @@ def check_stl(data, answer):
         assert len(data) >= 84 + 50 * count
         corners = [struct.unpack_from("<9f", data, 96 + 50 * n) for n in range(count)]
         return check_triangles(answer, [[c[0:3], c[3:6], c[6:9]] for c in corners])
-    words = data.decode("latin-1").lower().split()
+    lines = data.decode("latin-1").lower().splitlines()
+    words = " ".join(line for line in lines if line.split()[:1] not in (["solid"], ["endsolid"])).split()
     places = [[float(word) for word in words[n + 1:n + 4]] for n, word in enumerate(words) if word == "vertex"]
     return check_triangles(answer, [places[n:n + 3] for n in range(0, len(places), 3)])
 
@@ -405,7 +409,7 @@ def check_glb(data, answer):
         for primitive in scene["meshes"][node["mesh"]]["primitives"] if "mesh" in node else []:
             points = [[sum(matrix[row + 4 * k] * n for k, n in enumerate([*point, 1.0])) for row in range(3)]
                       for point in accessor(primitive["attributes"]["POSITION"])]
-            ids = [n[0] for n in accessor(primitive["indices"])]
+            ids = [n[0] for n in accessor(primitive["indices"])] if "indices" in primitive else list(range(len(points)))
             x, y, z = (matrix[0:3], matrix[4:7], matrix[8:11])
             if x[0] * (y[1] * z[2] - y[2] * z[1]) - y[0] * (x[1] * z[2] - x[2] * z[1]) + z[0] * (x[1] * y[2] - x[2] * y[1]) < 0:
                 ids = [ids[k + n] for k in range(0, len(ids) - 2, 3) for n in (0, 2, 1)]  # as glTF says of reflections
@@ -414,7 +418,9 @@ def check_glb(data, answer):
                 triangles.extend([points[n] for n in ids[k:k + 3]] for k in range(0, len(ids) - 2, 3))
         for child in node.get("children", []):
             visit(child, matrix)
-    for root in scene["scenes"][scene.get("scene", 0)]["nodes"]:
+    children = {child for node in scene["nodes"] for child in node.get("children", [])}
+    roots = scene["scenes"][scene.get("scene", 0)]["nodes"] if "scenes" in scene else set(range(len(scene["nodes"]))) - children
+    for root in roots:
         visit(root, [float(n % 5 == 0) for n in range(16)])
     return check_triangles(answer, triangles)
 
@@ -470,6 +476,8 @@ def check_labels(data, answer):
     value = next((heads.index(word) for word in ("index", "labelvalue", "label", "value") if word in heads), None)
     found = {}
     for line in lines[1:] if value is not None else lines:
+        if line.startswith("#"):
+            continue
         words = line.split("\t") if value is not None else line.split(None, 1)
         at = value or 0
         name = words[heads.index("name")] if value is not None and heads.index("name") < len(words) else "" if value is not None else words[1]

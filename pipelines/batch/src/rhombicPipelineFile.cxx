@@ -89,7 +89,7 @@ public:
   Pipeline
   Parse(const std::string & text)
   {
-    const YAML::Node root = YAML::Load(text);
+    const YAML::Node root = LoadYAML(text);
     RefuseOtherKeys(root, { "description", "options", "outputs" });
     Pipeline pipeline;
     if (root["options"])

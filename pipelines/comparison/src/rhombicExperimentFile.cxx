@@ -2,6 +2,7 @@
 #include "rhombicComparedMethod.h"
 #include "rhombicFailure.h"
 #include "rhombicFiles.h"
+#include "rhombicYAMLKeys.h"
 #include "rhombicWording.h"
 
 #include <yaml-cpp/yaml.h>
@@ -131,7 +132,7 @@ ReadComparisonRequest(const std::filesystem::path & path, const std::filesystem:
   try
   {
     ComparisonRequest request;
-    Map map(YAML::Load(text));
+    Map map(LoadYAML(text));
     map.Get("title", request.title);
     map.Get("text", request.text);
     map.Get("lattices", request.hasLattices);
@@ -155,6 +156,10 @@ ReadComparisonRequest(const std::filesystem::path & path, const std::filesystem:
   catch (const YAML::Exception & error)
   {
     throw Failure(FailureKind::Unreadable, path.string() + " is no file of experiments: " + error.what() + ".");
+  }
+  catch (const YAMLMistake & mistake)
+  {
+    throw Failure(FailureKind::Unreadable, path.string() + " " + mistake.what() + ".");
   }
 }
 

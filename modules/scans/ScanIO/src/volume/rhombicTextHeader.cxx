@@ -177,8 +177,13 @@ ReadNRRDHeader(const fs::path & path)
       continue;
     }
     std::string name = LowerCase(line.substr(0, colon));
+    const std::string_view value = Trim(std::string_view(line).substr(colon + 1));
+    RefuseVolumeIf(line.compare(colon, 2, ": ") != 0 || (value.empty() && name != "content"),
+                   path,
+                   "its header's field '" + name + "' has no value after a colon and a blank; export it again from its "
+                   "source");
     name.erase(std::remove(name.begin(), name.end(), ' '), name.end());
-    RefuseVolumeIf(!header.fields.emplace(name, Trim(line.substr(colon + 1))).second,
+    RefuseVolumeIf(!header.fields.emplace(name, value).second,
                    path,
                    "its header has the field '" + name + "' twice; export it again from its source");
     if (name == "datafile" && header.Get(name).compare(0, 4, "LIST") == 0)
