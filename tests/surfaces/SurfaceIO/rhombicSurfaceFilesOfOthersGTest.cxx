@@ -394,6 +394,28 @@ TEST_F(SurfaceFilesOfOthers, PromisesOfSizeAreCheckedBeforeMemoryIsAsked)
     Kind::Unreadable);
 }
 
+/** VTK's reader takes the digits at the beginning of a number, and -inf for a large number. */
+TEST_F(SurfaceFilesOfOthers, CountsOfVTPAreWholeNumbers)
+{
+  const auto fileWith = [](const std::string & points, const std::string & polygons, const std::string & components) {
+    return "<VTKFile type=\"PolyData\" version=\"0.1\"><PolyData><Piece NumberOfPoints = '" + points +
+           "' NumberOfPolys=\"" + polygons + "\"><Points><DataArray type=\"Float32\" NumberOfComponents=\"" +
+           components +
+           "\" format=\"ascii\">0 0 0 1 0 0 0 1 0 0 0 1</DataArray></Points><Polys>"
+           "<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 2 1 0 1 3 1 2 3 2 0 3</DataArray>"
+           "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">3 6 9 12</DataArray></Polys></Piece>"
+           "</PolyData></VTKFile>";
+  };
+  EXPECT_EQ(this->Read("a.vtp", fileWith("4", "4", "3")).front().surface->GetNumberOfTriangles(), 4u);
+  for (const std::string wrong : { "4.5", "1e-300", "1.0", "-inf", "", "-4", "4 4", "x" })
+  {
+    EXPECT_EQ(this->Refused("a.vtp", fileWith(wrong, "4", "3"), "NumberOfPoints"), rhombic::FailureKind::Unreadable);
+    EXPECT_EQ(this->Refused("a.vtp", fileWith("4", wrong, "3"), "NumberOfPolys"), rhombic::FailureKind::Unreadable);
+    EXPECT_EQ(this->Refused("a.vtp", fileWith("4", "4", wrong), "NumberOfComponents"),
+              rhombic::FailureKind::Unreadable);
+  }
+}
+
 /** VTK's reader runs in a child process: whatever the damage, there is a surface or a sentence. */
 TEST_F(SurfaceFilesOfOthers, AnyDamageOfVTPEndsInASurfaceOrASentence)
 {

@@ -25,6 +25,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -65,6 +66,31 @@ private:
 
 vtkStandardNewMacro(MessageCollector);
 
+/** Throws SandboxRefusal for a number of points, cells or components that is no whole number. VTK reads the digits at
+ * its beginning. */
+void
+RequireWholeCounts(std::string_view xml)
+{
+  constexpr std::string_view blanks = " \t\r\n";
+  const std::string_view elements = xml.substr(0, xml.find("<AppendedData"));
+  for (std::size_t at = elements.find("NumberOf"); at != std::string_view::npos; at = elements.find("NumberOf", at + 1))
+  {
+    const std::size_t equals = std::min(elements.find_first_of("=\"'>", at), elements.size() - 1);
+    const std::size_t quote = std::min(elements.find_first_not_of(blanks, equals + 1), elements.size() - 1);
+    if (elements[equals] != '=' || (elements[quote] != '"' && elements[quote] != '\''))
+    {
+      continue; // in a text
+    }
+    const std::string_view value =
+      elements.substr(quote + 1, std::min(elements.find(elements[quote], quote + 1), elements.size()) - quote - 1);
+    if (value.empty() || value.find_first_not_of("0123456789") != std::string_view::npos)
+    {
+      throw SandboxRefusal("its " + std::string(elements.substr(at, equals - at)) +
+                           " is no whole number; the file is damaged, so export it again");
+    }
+  }
+}
+
 /** Reads the file. Any message of VTK is a failure, as VTK goes on after errors. */
 vtkSmartPointer<vtkPolyData>
 ReadPolyData(const SandboxInput & input)
@@ -73,7 +99,9 @@ ReadPolyData(const SandboxInput & input)
   vtkOutputWindow::SetInstance(messages);
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->ReadFromInputStringOn();
-  reader->SetInputString({ reinterpret_cast<const char *>(input.file), input.size });
+  const std::string xml(reinterpret_cast<const char *>(input.file), input.size);
+  RequireWholeCounts(xml);
+  reader->SetInputString(xml);
   reader->Update();
   const vtkSmartPointer<vtkPolyData> polyData = reader->GetOutput();
   std::string why = messages->GetFirst();
