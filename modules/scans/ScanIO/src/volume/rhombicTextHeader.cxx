@@ -180,8 +180,9 @@ ReadNRRDHeader(const fs::path & path)
     const std::string_view value = Trim(std::string_view(line).substr(colon + 1));
     RefuseVolumeIf(line.compare(colon, 2, ": ") != 0 || (value.empty() && name != "content"),
                    path,
-                   "its header's field '" + name + "' has no value after a colon and a blank; export it again from its "
-                   "source");
+                   "its header's field '" + name +
+                     "' has no value after a colon and a blank; export it again from its "
+                     "source");
     name.erase(std::remove(name.begin(), name.end(), ' '), name.end());
     RefuseVolumeIf(!header.fields.emplace(name, value).second,
                    path,
