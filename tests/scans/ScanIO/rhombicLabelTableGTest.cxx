@@ -232,6 +232,8 @@ TEST(LabelTable, NamesLineAndFaultOfBadRows)
   ExpectRefusal(Replaced(BIDS, "#ff53bb", "#ff53b"), "line 2: its colour is \"#ff53b\"");
   ExpectRefusal(Replaced(BIDS, "#ff53bb", "#ff5-bb"), "line 2: its colour");
   ExpectRefusal(Replaced(BIDS, "2\tliver", "1\tliver"), "line 3: value 1 is given twice, first in line 2");
+  ExpectRefusal(Replaced(BIDS, "2\tliver", "\tliver"), "line 3: the label's value is \"\"");
+  ExpectRefusal(Replaced(BIDS, "2\tliver\tL\tn/a", " \t\t\t#ff53bb"), "line 3: the label's value is \"\"");
   ExpectRefusal("1 a\x1b[31m\n b 1 2 3 \x1b\x01\n", "t.txt");
 }
 

@@ -19,13 +19,14 @@ namespace
 /** A line of a label table. */
 struct TextLine
 {
-  std::string_view text;  ///< without spaces at its ends
+  std::string_view text;  ///< without blanks at its ends
   std::size_t number = 0; ///< from 1
 };
 
-/** The lines of a text that are neither blank nor begin with '#'. Throws for more than 100,000 lines. */
+/** The lines of a text that are neither blank nor begin with '#'. Throws for more than 100,000 lines.
+ * \param isOfTabs whether a tab at the beginning of a line ends an empty field: then it stays */
 std::vector<TextLine>
-LinesOfTable(std::string_view text, const std::string & source)
+LinesOfTable(std::string_view text, const std::string & source, bool isOfTabs)
 {
   constexpr std::size_t mostLines = 100'000;
   std::vector<TextLine> lines;
@@ -36,7 +37,12 @@ LinesOfTable(std::string_view text, const std::string & source)
       RefuseTable({ source }, "it has more than 100,000 lines, too many for a label table; check that it is one");
     }
     const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
-    const std::string_view line = Trim(text.substr(0, end));
+    std::string_view line = Trim(text.substr(0, end));
+    const std::size_t tab = text.find_first_not_of(' ');
+    if (isOfTabs && !line.empty() && text[tab] == '\t')
+    {
+      line = text.substr(tab, static_cast<std::size_t>(line.data() + line.size() - text.data()) - tab);
+    }
     if (!line.empty() && line.front() != '#')
     {
       lines.push_back({ line, number });
@@ -378,7 +384,7 @@ ParseIfLabelTable(std::string_view text, const std::string & source, TableChoice
     return std::nullopt;
   }
   text = WithoutByteOrderMark(text, source);
-  const std::vector<TextLine> lines = LinesOfTable(text, source);
+  const std::vector<TextLine> lines = LinesOfTable(text, source, false);
   if (lines.empty() || text.find('\0') != std::string_view::npos)
   {
     return std::nullopt;
@@ -394,7 +400,9 @@ ParseIfLabelTable(std::string_view text, const std::string & source, TableChoice
   if (const auto columns = FindLabelColumns(first))
   {
     const bool isSure = columns->value == "labelvalue" || columns->value == "index";
-    return isNamed || isSure ? std::make_optional(ParseColumnTable(lines, *columns, source)) : std::nullopt;
+    return isNamed || isSure ? std::make_optional(ParseColumnTable(
+                                 LinesOfTable(text, source, columns->separator == '\t'), *columns, source))
+                             : std::nullopt;
   }
 
   constexpr std::size_t longestBeginning = 4096;
