@@ -339,6 +339,23 @@ TEST_F(OMEZarr, PositionsAreInMillimetres)
   EXPECT_NE(image.GetNotes().front().find("left and right are a guess"), std::string::npos);
 }
 
+TEST_F(OMEZarr, ScalesBeyondAllNumbersAreRefused)
+{
+  OMEZarrTestFolder zarr;
+  for (const char * const transformations :
+       { R"([{"type": "scale", "scale": [1, 1, 1e200]}, {"type": "scale", "scale": [1, 1, 1e200]}])",
+         R"([{"type": "scale", "scale": [1, 1, 0]}])",
+         R"([{"type": "scale", "scale": [1, 1, -1]}])",
+         R"([{"type": "scale", "scale": [1, 1, 2]}, {"type": "translation", "translation": [0, 0, 1e308]},
+             {"type": "translation", "translation": [0, 0, 1e308]}])" })
+  {
+    zarr.transformations = transformations;
+    zarr.Write(m_Folder, std::vector<float>(120));
+    EXPECT_EQ(KindOf([&] { OMEZarrImage image(m_Folder); }, "axis x"), FailureKind::Geometry) << transformations;
+    std::filesystem::remove_all(m_Folder / "0");
+  }
+}
+
 TEST_F(OMEZarr, AxesOfSpaceInAnyOrder)
 {
   OMEZarrTestFolder zarr;

@@ -191,9 +191,12 @@ TakeUnits(const OMEZarrOptions & options, const fs::path & path, OMEZarrMetadata
                   "it tells no " + std::string(axis.step ? "unit" : "scale") + " of its axis " + name +
                     ", and so no size of its voxels; give it with OMEZarrOptions::voxelSize");
     }
-    if (axis.step && !(*axis.step > 0))
+    if (axis.step && !(*axis.step > 0 && std::isfinite(*axis.step) && std::isfinite(axis.origin)))
     {
-      RefusePlace(path, "the scale of its axis " + name + " is not above 0; write it so");
+      RefusePlace(path,
+                  "the scale of its axis " + name +
+                    " is not above 0, or scale or translation are beyond all numbers; "
+                    "write them so");
     }
     if (options.voxelSize)
     {
