@@ -7,6 +7,7 @@ import math
 import os
 import re
 import struct
+import unicodedata
 import xml.etree.ElementTree
 import zlib
 
@@ -481,6 +482,7 @@ def check_labels(data, answer):
         words = line.split("\t") if value is not None else line.split(None, 1)
         at = value or 0
         name = words[heads.index("name")] if value is not None and heads.index("name") < len(words) else "" if value is not None else words[1]
+        name = "".join(letter for letter in name if not unicodedata.category(letter) == "Cc" or letter.isspace())
         found[int(words[at])] = " ".join(name.split()) or f"label {int(words[at])}"
     return check_words(answer, [word for key in sorted(found) for word in (float(key), found[key])])
 
