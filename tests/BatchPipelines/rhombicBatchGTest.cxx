@@ -708,6 +708,37 @@ TEST(Batch, ABIDSDatasetBecomesADerivative)
   }
 }
 
+TEST(Batch, LinesOfTheJournalThatAreNoRecordsAreLeftOut)
+{
+  const TemporaryFolder folder;
+  fs::create_directory(folder.Path() / "out");
+  std::ofstream(folder.Path() / "cases.tsv") << "case\tscan\nsound\tx.nii\nwrong\tx.nii\n";
+  std::ofstream journal(folder.Path() / "out/journal.jsonl");
+  journal << R"({"case": "sound", "status": "failed", "cause": "was no scan", "measures": [{"surface": "bone"}]})"
+          << '\n';
+  for (const char * const line : { R"({"case": 7})",
+                                   R"(["case"])",
+                                   R"({"case": "wrong", "status": 3})",
+                                   R"({"case": "wrong", "seconds": "1"})",
+                                   R"({"case": "wrong", "outputs": {"name": "a"}})",
+                                   R"({"case": "wrong", "outputs": [{"name": "a", "bytes": "x"}]})",
+                                   R"({"case": "wrong", "outputs": ["a"]})",
+                                   R"({"case": "wrong", "steps": [{"output": "a"}]})",
+                                   R"({"case": "wrong", "measures": [{"surface": null}]})",
+                                   R"({"case": "wrong", "agreement": [{"status": "compared", "dice": 1}]})",
+                                   R"({"case": "wrong", "input": {"md5": 5}})",
+                                   R"({"case": "wrong", "status": "do)" })
+  {
+    journal << line << '\n';
+  }
+  journal.close();
+  const Outcome outcome = RunShell("rhombic batch cases.tsv -o out --tables", folder.Path());
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+  const std::string table = ReadText(folder.Path() / "out/results.tsv");
+  EXPECT_NE(table.find("sound\tfailed"), std::string::npos) << table;
+  EXPECT_NE(table.find("wrong\tnot run"), std::string::npos) << table;
+}
+
 TEST(Batch, TheIndexOfManyCasesWorksInABrowser)
 {
   const TemporaryFolder folder;

@@ -3,6 +3,7 @@
 #include "rhombicFailure.h"
 #include "rhombicWording.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -40,6 +41,45 @@ ByteOf(const std::string & name)
   return static_cast<off_t>(std::stoull(HashText(name).substr(0, digits), nullptr, 16)) + 1;
 }
 
+/** Whether a value is of the type of an example. Objects may lack members of the example, but for objects in arrays,
+ * and have others; elements of arrays are as the first of the example's. Null stands for a number or null. */
+bool
+IsLike(const Report & value, const Report & example, bool isElement = false)
+{
+  if (example.is_object())
+  {
+    return value.is_object() && std::all_of(example.items().begin(), example.items().end(), [&](const auto & member) {
+             return value.contains(member.key()) ? IsLike(value[member.key()], member.value()) : !isElement;
+           });
+  }
+  if (example.is_array())
+  {
+    return value.is_array() && std::all_of(value.begin(), value.end(), [&](const Report & element) {
+             return IsLike(element, example.front(), true);
+           });
+  }
+  return example.is_null() ? value.is_null() || value.is_number()
+                           : value.type_name() == std::string(example.type_name());
+}
+
+/** Whether a line is the record of a case: another one was not written by a batch, or not to its end. */
+bool
+IsRecord(const Report & line)
+{
+  static const Report example = Report::parse(R"({
+    "case": "", "folder": "", "status": "", "cause": "", "options": "", "software": "", "seconds": 0, "peakMemory": 0,
+    "input": { "md5": "", "stamp": "" },
+    "steps": [ { "output": "", "seconds": 0 } ],
+    "outputs": [ { "name": "", "bytes": 0 } ],
+    "failedOutputs": [ "" ],
+    "measures": [ { "surface": "" } ],
+    "agreement": [ { "output": "", "label": "", "status": "", "volume_difference_ml": null,
+                     "volume_difference_percent": null, "dice": null, "iou": null, "hd_mm": null, "hd95_mm": null,
+                     "masd_mm": null, "assd_mm": null, "nsd": null, "centroid_shift_mm": null } ]
+  })");
+  return IsLike(line, example) && line.contains("case");
+}
+
 Failure
 CannotWrite(const fs::path & path)
 {
@@ -56,8 +96,8 @@ ReadJournal(const fs::path & folder)
   std::string line;
   while (std::getline(stream, line))
   {
-    Report report = Report::parse(line, nullptr, false); // a line that a killed process has left is none
-    if (report.is_object() && report.contains("case"))
+    Report report = Report::parse(line, nullptr, false);
+    if (IsRecord(report))
     {
       const auto name = report["case"].get<std::string>();
       records[name] = std::move(report);

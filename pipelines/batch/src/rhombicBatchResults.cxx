@@ -176,7 +176,7 @@ DescribeVolumes(const Report & record)
   for (const Report & surface : record.value("measures", Report::array()))
   {
     const auto name = surface.value("surface", std::string());
-    if (surface.contains("volume_ml") && std::count(names.begin(), names.end(), name) == 0)
+    if (surface.value("volume_ml", Report()).is_number() && std::count(names.begin(), names.end(), name) == 0)
     {
       names.push_back(name);
       text += (text.empty() ? "" : "<br>") + Escape(name) + " " + DescribeVolume(surface["volume_ml"].get<double>());
