@@ -68,7 +68,8 @@ HasOwnOpacity(const SurfaceSelection & selection, const SceneSurface & surface);
 Scan
 ReadScan(const ScanSource & source, const Events & events);
 
-/** Reads a scan or a lattice volume. Notes describe it and list the assumptions of the reader. Throws Failure. */
+/** Reads a scan or a lattice volume. Notes describe it and list the assumptions of the reader. Throws Failure: Geometry
+ * for a scan farther than 200,000 of its shortest spacings from the origin, and what the readers throw. */
 SourceVolume
 LoadVolume(const ScanSource & source, const Events & events);
 

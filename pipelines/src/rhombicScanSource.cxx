@@ -34,6 +34,35 @@ DescribeGrid(const Scan & scan)
          DescribeSpacing(grid.GetSpacing()) + ", " + PixelTypeName(scan.image);
 }
 
+/** Throws Failure(Geometry) if a corner of the scan is so far from the origin that the 32-bit coordinates of surfaces
+ * there are steps of more than 1/80 of a voxel. */
+void
+RequireNearOrigin(const Scan & scan, const fs::path & path)
+{
+  constexpr double mostSpacings = 200'000.0; // of 2^24 steps
+  const auto & grid = GeometryOf(scan.image);
+  const auto & region = grid.GetLargestPossibleRegion();
+  const auto & spacing = grid.GetSpacing();
+  double farthest = 0.0;
+  for (unsigned int corner = 0; corner < 8; ++corner)
+  {
+    itk::Index<3> index = region.GetIndex();
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      index[axis] = (corner >> axis & 1u) != 0 ? region.GetUpperIndex()[axis] : index[axis];
+    }
+    const auto point = grid.TransformIndexToPhysicalPoint<double>(index);
+    farthest = std::max({ farthest, std::abs(point[0]), std::abs(point[1]), std::abs(point[2]) });
+  }
+  if (!(farthest <= mostSpacings * std::min({ spacing[0], spacing[1], spacing[2] })))
+  {
+    throw Failure(FailureKind::Geometry,
+                  "The voxels of " + path.string() + " lie up to " + FormatNumber(farthest, 4) +
+                    " mm from the origin, too far for the coordinates of surfaces (200,000 voxels at most); "
+                    "correct the origin in the header.");
+  }
+}
+
 void
 NoteAll(const std::vector<std::string> & notes, const Events & events, const std::string & before = "")
 {
@@ -362,7 +391,12 @@ LoadVolume(const ScanSource & source, const Events & events)
   {
     return ReadFCCImage(source.path);
   }
-  Scan scan = ReadScan(source, events);
+  ScanSource near = source;
+  near.check = [&source](const Scan & scan) {
+    RequireNearOrigin(scan, source.path);
+    source.check ? source.check(scan) : void();
+  };
+  Scan scan = ReadScan(near, events);
   events.Note(DescribeGrid(scan));
   if (IsMapped(scan.image))
   {

@@ -1,3 +1,4 @@
+#include "rhombicFailure.h"
 #include "rhombicMeshScan.h"
 #include "rhombicScanWriter.h"
 #include "rhombicTemporaryFolder.h"
@@ -56,6 +57,33 @@ MakeBlock(bool hasClefts)
     image->GetBufferPointer()[n] = isHollow ? -850 : isBlock ? 40 : -1000;
   }
   return itk::SmartPointer<ImageType>(image);
+}
+
+TEST(MeshScan, ScansFarFromTheOriginAreRefused)
+{
+  const auto block = std::get<itk::Image<std::int16_t, 3>::Pointer>(MakeBlock(false));
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    itk::Point<double, 3> origin(0.0);
+    origin[axis] = -390'000.0;
+    block->SetOrigin(origin);
+    EXPECT_NO_THROW(NotesOf(block, Parts::All));
+    for (const double far : { 400'100.0, -1e6, 2e6 })
+    {
+      origin[axis] = far;
+      block->SetOrigin(origin);
+      try
+      {
+        NotesOf(block, Parts::All);
+        ADD_FAILURE() << far;
+      }
+      catch (const rhombic::Failure & failure)
+      {
+        EXPECT_EQ(failure.GetKind(), rhombic::FailureKind::Geometry);
+        EXPECT_NE(std::string(failure.GetDescription()).find("from the origin"), std::string::npos);
+      }
+    }
+  }
 }
 
 TEST(MeshNotes, SayWhereAnOutlineFillsAHollow)
