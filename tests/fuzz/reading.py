@@ -472,7 +472,8 @@ def check_cases(path, data, answer):
 
 
 def check_labels(data, answer):
-    lines = [line for line in data.decode("utf-8", "replace").replace("\ufffd", "?").split("\n") if line.strip()]
+    text = re.sub("[\udc80-\udcff]", "?", data.decode("utf-8", "surrogateescape"))
+    lines = [line for line in re.split("\r\n|\r|\n", text) if line.strip()]
     heads = [word.strip().lower() for word in lines[0].split("\t")]
     value = next((heads.index(word) for word in ("index", "labelvalue", "label", "value") if word in heads), None)
     found = {}
@@ -482,7 +483,7 @@ def check_labels(data, answer):
         words = line.split("\t") if value is not None else line.split(None, 1)
         at = value or 0
         name = words[heads.index("name")] if value is not None and heads.index("name") < len(words) else "" if value is not None else words[1]
-        name = "".join(letter for letter in name if not unicodedata.category(letter) == "Cc" or letter.isspace())
+        name = "".join(letter for letter in name if not unicodedata.category(letter) == "Cc" or letter in " \t\n\r\v\f")
         found[int(words[at])] = " ".join(name.split()) or f"label {int(words[at])}"
     return check_words(answer, [word for key in sorted(found) for word in (float(key), found[key])])
 
