@@ -38,6 +38,6 @@ target_compile_options(RhombicOptions INTERFACE
   $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage> # a unity build takes sources for headers
   $<$<BOOL:${RHOMBIC_STRICT}>:-Werror>)
 if(RHOMBIC_SANITIZER)
-  target_compile_options(RhombicOptions INTERFACE -fsanitize=${RHOMBIC_SANITIZER} -fno-omit-frame-pointer)
+  target_compile_options(RhombicOptions INTERFACE -fsanitize=${RHOMBIC_SANITIZER} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(RhombicOptions INTERFACE -fsanitize=${RHOMBIC_SANITIZER})
 endif()

@@ -1,17 +1,19 @@
 #!/usr/bin/env bash
-# endurance.sh [-t SECONDS] [-l] [STEP...]
+# endurance.sh [-t SECONDS] [-p PART] [-l] [STEP...]
 #
 # What takes hours, step by step: all steps, or those whose names begin with the words given; -l lists them. A finished part of a step is
 # a line of build/endurance/log: step, part, time, seconds, passed or failed, counts. What has passed is not run again, so that the script
 # goes on where it was stopped; remove the log, or lines of it, to run it again. What a part printed is in build/endurance/STEP-PART.txt.
 #
 #   -t SECONDS   how long each fuzzer runs (default 1800)
+#   -p PART      only the parts whose names begin so, as a test program
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source=$PWD
 folder=$source/build/endurance
 programs=(RhombicCommon Sandbox SurfaceIO ScanIO LabelMaps PictureIO PageDrawing InteractivePage Pipelines DrawingPipelines
           AgreementPipelines BatchPipelines apps) # what has to do with text, files and time
+sanitized=(ScanIO SurfaceIO SurfaceEditing LabelSurfaces FCCIsosurface Pipelines apps) # before the others
 steps=(locale-tr_TR locale-de_DE host-de_DE zone blanks lines home user)
 for file in tests/fuzz/*Fuzz.cxx; do
   name=${file##*/rhombic}
@@ -25,9 +27,11 @@ steps+=(malformed chaos faults)
 steps+=(asan tsan)
 
 seconds=1800
-while getopts t:l option; do
+chosen=
+while getopts t:p:l option; do
   case $option in
     t) seconds=$OPTARG ;;
+    p) chosen=$OPTARG ;;
     l)
       printf '%s\n' "${steps[@]}"
       exit
@@ -43,6 +47,7 @@ status=0
 
 part() { # STEP PART COUNTS COMMAND...: runs a part that has not passed yet; the function COUNTS tells what its output says
   local key=$1$'\t'$2 output="$folder/$1-$2.txt" result=passed begin=$SECONDS line
+  [[ $2 == "$chosen"* ]] || return 0
   grep -q "^$key"$'\t.*\tpassed\t' "$log" && return
   echo "$1 $2 ..."
   "${@:4}" >"$output" 2>&1 </dev/null || result=failed
@@ -142,12 +147,18 @@ malformed() { # 14 kinds of files, 100,000 mutants; those of VTP, which VTK read
   part malformed 100000 tail_of tests/fuzz/malformed.py -n 107000 -p 5000 -k "$folder/malformed" build/dev/bin "$folder/seeds"
 }
 
-sanitizer() { # PRESET: CTest's tests, those of each prefix by themselves
+sanitizer() { # PRESET: CTest's tests, those of each prefix by themselves; the programs that matter most as soon as they are built
   local prefix
+  for prefix in "${sanitized[@]}"; do
+    [[ $prefix == "$chosen"* ]] || continue
+    ./pipelines/build.sh "$1" rhombic "${prefix}Tests"
+    part "$1" "$prefix" count_ctest ctest --preset "$1" -R "^$prefix\\."
+  done
+  [[ -z $chosen || " ${sanitized[*]} " != *" $chosen "* ]] || return 0
   ./pipelines/build.sh "$1"
   ctest --preset "$1" -N | sed -n 's/^ *Test *#[0-9]*: \([^.]*\)\..*/\1/p' | sort -u >"$folder/$1-parts"
   while read -r prefix; do
-    part "$1" "$prefix" count_ctest ctest --preset "$1" -R "^$prefix\\."
+    [[ " ${sanitized[*]} " == *" $prefix "* ]] || part "$1" "$prefix" count_ctest ctest --preset "$1" -R "^$prefix\\."
   done <"$folder/$1-parts"
 }
 
@@ -165,8 +176,15 @@ for step in "${steps[@]}"; do
     fuzz-*) fuzz "$step" ;;
     compiler-*) compiler "$step" "${step#compiler-}" ;;
     malformed) malformed ;;
-    chaos) part chaos 300-cases tail_of tests/faults/chaos.py build/dev/bin/rhombic -c 300 -r 3 ;;
-    faults) part faults all tail_of tests/faults/inject-faults.py build/dev/bin/rhombic testdata/phantom 12 ;;
+    chaos)
+      part chaos 300-cases tail_of tests/faults/chaos.py build/dev/bin/rhombic -c 300 -r 3
+      part chaos processes tail_of as_nobody tests/faults/chaos.py build/dev/bin/rhombic -c 300 -r 3 processes # root has no such limit
+      ;;
+    faults)
+      for command in $(tests/faults/inject-faults.py -l); do
+        part faults "$command" tail_of tests/faults/inject-faults.py build/dev/bin/rhombic testdata/phantom 12 "$command"
+      done
+      ;;
     *) sanitizer "$step" ;;
   esac
 done

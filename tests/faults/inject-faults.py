@@ -2,7 +2,7 @@
 """inject-faults.py PROGRAM TESTDATA [MOST [COMMAND...]]: runs each command of the program once for each system call on its inputs and outputs, and
 lets this call fail (strace -e inject). Each run must end well, with the outputs of a run without a fault, or end with a sentence and a
 documented exit code, without any output but those that the sentence names, and without other files; the inputs must be the same as
-before.
+before. With -l alone it lists the commands.
 
 Calls count from the first access to an input on. MOST is the largest number of faults for each command, kind of call and error (default
 12); they are spread evenly over the calls. Prints a line for each command and each defect."""
@@ -137,6 +137,9 @@ def defect_of(code, text, files, usual, is_silenced):
 
 
 def main():
+    if sys.argv[1:] == ["-l"]:
+        print("\n".join(COMMANDS))
+        return 0
     program, testdata = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
     most = int(sys.argv[3]) if len(sys.argv) > 3 else 12
     chosen = sys.argv[4:] or list(COMMANDS)

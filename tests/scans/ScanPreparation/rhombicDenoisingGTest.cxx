@@ -36,12 +36,12 @@ MakeBall(double noise, double slices = 1.0)
   image->SetSpacing(spacing);
   image->SetOrigin(origin);
   std::mt19937 random(11);
-  std::normal_distribution<double> normal(0.0, noise);
+  std::normal_distribution<double> normal; // times the noise, which may be 0
   for (itk::ImageRegionIteratorWithIndex<ImageType> it(image, image->GetBufferedRegion()); !it.IsAtEnd(); ++it)
   {
     const auto point = image->template TransformIndexToPhysicalPoint<double>(it.GetIndex());
     const double distance = point.GetVectorFromOrigin().GetNorm();
-    it.Set(static_cast<TPixel>(std::lround(500.0 * std::erf(radius - distance) + normal(random))));
+    it.Set(static_cast<TPixel>(std::lround(500.0 * std::erf(radius - distance) + noise * normal(random))));
   }
   rhombic::Scan scan;
   scan.image = image;

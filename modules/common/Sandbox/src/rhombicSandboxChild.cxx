@@ -35,11 +35,14 @@ constexpr unsigned int Architecture = 0;
 #endif
 
 constexpr unsigned int Allowed[] = {
-  SYS_read,         SYS_pread64,        SYS_write,       SYS_writev,      SYS_lseek,       SYS_fstat,
-  SYS_newfstatat,   SYS_close,          SYS_sendmsg,     SYS_recvmsg,     SYS_brk,         SYS_mmap,
-  SYS_munmap,       SYS_mremap,         SYS_mprotect,    SYS_madvise,     SYS_exit,        SYS_exit_group,
-  SYS_futex,        SYS_getpid,         SYS_gettid,      SYS_getrusage,   SYS_getrandom,   SYS_clock_gettime,
-  SYS_rt_sigaction, SYS_rt_sigprocmask, SYS_sched_yield, SYS_sigaltstack, SYS_rt_sigreturn
+  SYS_read,         SYS_pread64,        SYS_write,       SYS_writev,      SYS_lseek,        SYS_fstat,
+  SYS_newfstatat,   SYS_close,          SYS_sendmsg,     SYS_recvmsg,     SYS_brk,          SYS_mmap,
+  SYS_munmap,       SYS_mremap,         SYS_mprotect,    SYS_madvise,     SYS_exit,         SYS_exit_group,
+  SYS_futex,        SYS_getpid,         SYS_gettid,      SYS_getrusage,   SYS_getrandom,    SYS_clock_gettime,
+  SYS_rt_sigaction, SYS_rt_sigprocmask, SYS_sched_yield, SYS_sigaltstack, SYS_rt_sigreturn,
+#ifdef __SANITIZE_ADDRESS__
+  SYS_pipe2, // UndefinedBehaviorSanitizer writes to a pipe to learn whether memory can be read
+#endif
 };
 
 /** Adds the rule that a system call is allowed; if \a argument is given, only with this first argument. */
