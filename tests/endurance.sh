@@ -14,7 +14,7 @@ folder=$source/build/endurance
 programs=(RhombicCommon Sandbox SurfaceIO ScanIO LabelMaps PictureIO PageDrawing InteractivePage Pipelines DrawingPipelines
           AgreementPipelines BatchPipelines apps) # what has to do with text, files and time
 sanitized=(ScanIO SurfaceIO SurfaceEditing LabelSurfaces FCCIsosurface Pipelines apps) # before the others
-steps=(locale-tr_TR locale-de_DE host-de_DE zone blanks lines home user)
+steps=(together locale-tr_TR locale-de_DE host-de_DE zone blanks lines home user)
 for file in tests/fuzz/*Fuzz.cxx; do
   name=${file##*/rhombic}
   steps+=("fuzz-${name%Fuzz.cxx}")
@@ -83,13 +83,13 @@ environment() { # STEP VARIABLE=VALUE... [as_nobody]: the test programs, where T
   scratch=$(mktemp -d)
   trap 'rm -rf "$scratch"' EXIT
   place=$scratch
-  [ "$step" != blanks ] || place+='/with  blanks'
+  [ "$step" != blanks ] && [ "$step" != together ] || place+='/with  blanks'
   [ "$step" != lines ] || place+=$'/of two\nlines'
   mkdir -p "$place/home"
   chmod 755 "$scratch"
   chmod 777 "$place"
-  chmod "$([ "$step" = home ] && echo 555 || echo 777)" "$place/home"
-  [ "$step" != home ] && [ "$step" != user ] || who=(as_nobody)
+  chmod "$([ "$step" = home ] || [ "$step" = together ] && echo 555 || echo 777)" "$place/home"
+  case $step in home | user | together) who=(as_nobody) ;; esac
   for program in "${programs[@]}"; do
     [ "$step $program" != 'lines BatchPipelines' ] || continue # a table of cases cannot hold such paths: they are left out
     (cd "$place" && part "$step" "$program" count_tests "${who[@]}" env TMPDIR="$place" HOME="$place/home" "$@" \
@@ -170,6 +170,7 @@ for step in "${steps[@]}"; do
   [ -n "$wanted" ] || continue
   case $step in
     locale-*) has_locale "${step#locale-}.UTF-8" && environment "$step" LC_ALL="${step#locale-}.UTF-8" || true ;;
+    together) has_locale de_DE.UTF-8 && environment together LC_ALL=de_DE.UTF-8 TZ=Pacific/Kiritimati || true ;; # as zone, blanks and home
     host-*) host "$step" "${step#host-}.UTF-8" ;;
     zone) environment zone TZ=Pacific/Kiritimati ;;
     blanks | lines | home | user) environment "$step" ;;
@@ -178,7 +179,7 @@ for step in "${steps[@]}"; do
     malformed) malformed ;;
     chaos)
       part chaos 300-cases tail_of tests/faults/chaos.py build/dev/bin/rhombic -c 300 -r 3
-      part chaos processes tail_of as_nobody tests/faults/chaos.py build/dev/bin/rhombic -c 300 -r 3 processes # root has no such limit
+      part chaos processes tail_of as_nobody env PATH=/usr/bin:/bin tests/faults/chaos.py build/dev/bin/rhombic -c 300 -r 3 processes # root has no such limit
       ;;
     faults)
       for command in $(tests/faults/inject-faults.py -l); do
