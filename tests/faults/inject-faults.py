@@ -111,9 +111,10 @@ class Runs:
                 if match:
                     first = first or match.group(1)
                     counts[match.groups()] += 1
-                    # Not the memory of a child's loader, nor threads: libraries end the process where one can't be started, so the
-                    # program tries threads first.
-                    is_counted = match.group(1) == first if match.group(2) == "mmap" else "CLONE_THREAD" not in line
+                    # Not the memory of a child's loader, nor threads but those of a batch itself: libraries end the process where
+                    # one can't be started, so the program tries threads first.
+                    is_first, is_thread = match.group(1) == first, "CLONE_THREAD" in line
+                    is_counted = is_first if match.group(2) == "mmap" else not is_thread or command == "batch" and is_first
                     if begun and is_counted:
                         numbers[match.group(2)].add(counts[match.groups()])
         return {call: sorted(found) for call, found in numbers.items()}
@@ -154,6 +155,7 @@ def main():
             if code != 0 or not files and command not in ("info", "info-dicom", "audit", "same", "statistics", "tables"):
                 sys.exit(f"{command}: without a fault, exit code {code} and {len(files)} files: {text}")
             usual = code, files
+            runs.before = contents(runs.inputs)  # with what the command writes there
             numbers = runs.calls(command)
             tried = bad = 0
             for call, errors in FAULTS.items():
@@ -170,6 +172,8 @@ def main():
                             defect = "it changed the inputs"
                             shutil.rmtree(runs.inputs)
                             runs = Runs(program, testdata, base)
+                            runs.run(command, "-e", "trace=none")
+                            runs.before = contents(runs.inputs)
                         if defect:
                             bad += 1
                             print(f"{command}: {call} {n}, {error}: {defect}: {text[:300]}", flush=True)

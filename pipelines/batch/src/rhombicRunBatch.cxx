@@ -261,7 +261,7 @@ private:
     std::shared_future<std::string> & hash = m_InputHashes[HashFileStates(batchCase.files)];
     if (!hash.valid())
     {
-      hash = std::async(std::launch::async, HashFiles, batchCase.files).share();
+      hash = std::async(HashFiles, batchCase.files).share(); // when it is needed, where no thread can be started
     }
     return std::make_unique<CaseRun>(batchCase, m_Settings, hash);
   }
