@@ -112,13 +112,19 @@ CreateLocked(const fs::path & path)
   const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   struct stat status
   {};
-  if (descriptor < 0 ||
-      ((Lock(descriptor) || errno != EWOULDBLOCK) && fstat(descriptor, &status) == 0 && status.st_nlink > 0))
+  const bool isOurs = descriptor >= 0 && (Lock(descriptor) || errno != EWOULDBLOCK);
+  int error = EEXIST;
+  if (isOurs && fstat(descriptor, &status) != 0)
+  {
+    error = errno;
+    unlink(path.c_str());
+  }
+  if (descriptor < 0 || status.st_nlink > 0)
   {
     return descriptor;
   }
   close(descriptor);
-  errno = EEXIST;
+  errno = error;
   return -1;
 }
 
