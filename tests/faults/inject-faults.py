@@ -4,7 +4,7 @@ lets this call fail (strace -e inject). Each run must end well, with the outputs
 documented exit code, without any output but those that the sentence names, and without other files; the inputs must be the same as
 before. With -l alone it lists the commands.
 
-Calls count from the first access to an input on. MOST is the largest number of faults for each command, kind of call and error (default
+Calls count from the first access to an input or output on. MOST is the largest number of faults for each command, kind of call and error (default
 12); they are spread evenly over the calls. Prints a line for each command and each defect."""
 
 import collections
@@ -47,7 +47,7 @@ COMMANDS = {
     "surfaces": ["render", "{in}/bone.stl", "--size", "80", "-o", "{out}/bone.jpg"],
     "back": ["resample", "{in}/lattice.fcc.nrrd", "-o", "{out}/scan.nii.gz"],
     "same": ["compare-pictures", "{in}/bone.png", "{in}/bone.png"],
-    "phantom": ["phantom", "--spacing", "16", "-o", "{out}/phantom"],
+    "phantom": ["phantom", "--spacing", "10", "-o", "{out}/phantom"],
     "statistics": ["batch", "-o", "{in}/batch", "--stats"],
     "tables": ["batch", "{in}/cases", "--names-from-paths", "--pipeline", "{in}/pipeline.yaml", "--dry-run", "-o", "{in}/batch"],
     "batch": ["batch", "{in}/cases", "--names-from-paths", "--pipeline", "{in}/pipeline.yaml", "--jobs", "1", "-o", "{out}/batch"],
@@ -107,7 +107,7 @@ class Runs:
         with open(self.trace) as lines:
             for line in lines:
                 match = re.match(r"(\d+)\s+(\w+)\(", line)
-                begun = begun or (self.inputs in line and "execve(" not in line)
+                begun = begun or (self.inputs in line or self.out in line) and "execve(" not in line
                 if match:
                     first = first or match.group(1)
                     counts[match.groups()] += 1
