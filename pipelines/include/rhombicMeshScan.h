@@ -39,6 +39,11 @@ constexpr char NamePlaceholder[] = "{name}";
 std::vector<std::filesystem::path>
 CheckMeshScan(const MeshScanSettings & settings);
 
+/** Throws Failure(Memory) for surfaces that the memory (all that is free, without a limit) or the file can't hold.
+ * MeshScan() calls it before its work. Does nothing for a denoised scan, whose surfaces may be far smaller. */
+void
+CheckMesh(const MeshEstimate & mesh, const MeshScanSettings & settings);
+
 /** Writes surfaces of a scan; returns all files. Measures and the distance from the scan's isosurface are taken
  * while a file is written, and hold for it, as it is read back and compared; the audit is that of the surface read
  * back. Notes give the main figures; sidecars and the table hold all of them, and what finishing changed. All files

@@ -22,6 +22,13 @@
 namespace rhombic
 {
 
+/** The surfaces of requests, estimated. */
+struct MeshEstimate
+{
+  double triangles = 0.0;
+  SurfaceBytes bytes;
+};
+
 /** The file or folder of a scan, and how the scan gets onto the lattice. */
 struct ScanSource
 {
@@ -31,6 +38,9 @@ struct ScanSource
   bool streams = false;    ///< whether a lattice that does not fit is made in slabs, see ScanToLattice()
   /** Called with the facts of the headers, before the voxels of a scan are read; may be empty, and may throw. */
   std::function<void(const Scan & scan)> check;
+  /** Called with what isosurfaces of a scan will be, before its lattice is made; may be empty, and may throw. Called if
+   * the source \a streams. */
+  std::function<void(const MeshEstimate & mesh)> checkMesh;
 
   bool isHashed = false; ///< whether reports hold a digest of the files that were read
 
@@ -116,20 +126,13 @@ struct SampledSlices
   std::size_t slicesOfEach = 1; ///< slices of the scan for which one stands
 };
 
-/** The surfaces of requests, estimated. */
-struct MeshEstimate
-{
-  double triangles = 0.0;
-  SurfaceBytes bytes;
-};
-
 /** Estimates the surfaces of requests with isovalues from a part of a scan's slices.
- * \param density of the lattice */
+ * \param lattice what they are extracted from */
 MeshEstimate
 EstimateMesh(const SampledSlices & sample,
              const std::vector<SurfaceRequest> & requests,
              itk::FCCIsosurfaceMode mode,
-             double density);
+             const LatticeSettings & lattice);
 
 /** Whether surfaces can be made of a lattice in slabs. */
 bool

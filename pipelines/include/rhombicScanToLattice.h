@@ -46,16 +46,15 @@ struct LatticePlan
   itk::SizeValueType planesOfSlab = 0; ///< 0 for a lattice that is whole
   unsigned int slabs = 1;
   std::uintmax_t peak = 0; ///< of scan, lattice or slab, and what is made beside a slab
-  SurfaceBytes surfaces;   ///< of surfaces made of a lattice in slabs
 };
 
 /** For a lattice that is made in slabs when the whole of it does not fit. */
 struct LatticeStream
 {
-  std::function<SurfaceBytes()> findSurfaces; ///< what surfaces made of the lattice need; may be empty
-  bool mayBeInSlabs = true;                   ///< otherwise it must fit
-  std::uintmax_t scanBytes = 0;               ///< of a scan that has no voxels yet: what it will take of the memory
-  bool onlyPlans = false;                     ///< nothing is made but the plan, and a lattice without samples
+  SurfaceBytes surfaces;        ///< what surfaces made of the lattice need
+  bool mayBeInSlabs = true;     ///< otherwise it must fit
+  std::uintmax_t scanBytes = 0; ///< of a scan that has no voxels yet: what it will take of the memory
+  bool onlyPlans = false;       ///< nothing is made but the plan, and a lattice without samples
 
   LatticePlan plan;
   std::vector<itk::ProcessObject::Pointer> sources; ///< make the slabs, one behind the other; none for a whole lattice

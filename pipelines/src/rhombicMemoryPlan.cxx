@@ -99,6 +99,7 @@ ReadSomeSlices(const UnreadScan & file, std::size_t step)
         itk::Size<3> size = region.GetSize();
         size[2] = (size[2] + step - 1) / step;
         sample = Image::New();
+        sample->SetSpacing(unread->GetSpacing());
         sample->SetRegions(size);
         sample->Allocate();
         region.SetSize(2, 1);
@@ -233,7 +234,8 @@ PlanMeshScan(const MeshScanSettings & settings, const Events & events)
   MeshEstimate mesh;
   if (!known.empty())
   {
-    mesh = EstimateMesh({ slices, 1, step }, known, settings.surfaces.mode, settings.source.lattice.density);
+    mesh = EstimateMesh({ slices, 1, step }, known, settings.surfaces.mode, settings.source.lattice);
+    CheckMesh(mesh, settings);
   }
   std::string text = "voxels        " + DescribePlace(unread) + '\n';
   std::uintmax_t volumes = unread.CountInMemory();
@@ -241,7 +243,7 @@ PlanMeshScan(const MeshScanSettings & settings, const Events & events)
   if (!requests.empty())
   {
     LatticeStream stream;
-    stream.findSurfaces = [&mesh] { return mesh.bytes; };
+    stream.surfaces = mesh.bytes;
     stream.mayBeInSlabs = MayBeInSlabs(requests);
     plan = PlanLattice(unread, settings.source.lattice, stream, events);
     volumes += plan.peak - plan.scanBytes;

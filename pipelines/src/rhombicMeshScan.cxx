@@ -3,6 +3,7 @@
 #include "rhombicFailure.h"
 #include "rhombicForEachBlock.h"
 #include "rhombicMeasureTable.h"
+#include "rhombicMemoryBudget.h"
 #include "rhombicSourceSurfaces.h"
 #include "rhombicSurfaceReport.h"
 #include "rhombicWording.h"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -379,6 +381,26 @@ AuditTogether(const FileInspection & inspection, const std::vector<MeshedSurface
   return ReportWalls(audit);
 }
 
+/** How to have at most \a share of a mesh's triangles. */
+std::string
+AdviseCoarser(const LatticeSettings & lattice, double share)
+{
+  const double density = 0.95 * lattice.density * std::pow(share, 1.5); // triangles follow the distances of sites
+  const std::string coarser = lattice.nested ? ""
+                              : lattice.spacing != LatticeSettings().spacing
+                                ? "a coarser lattice with a larger --spacing, "
+                              : density >= 0.001 ? "a coarser lattice with --density " + FormatNumber(density, 2) + ", "
+                                                 : "";
+  return "use " + coarser + "another threshold or a part of the scan";
+}
+
+/** "some 5.12 million triangles". */
+std::string
+DescribeTriangles(double triangles)
+{
+  return "some " + FormatFixed(triangles / 1e6, triangles < 1e7 ? 2 : 0) + " million triangles";
+}
+
 } // namespace
 
 std::vector<fs::path>
@@ -400,12 +422,50 @@ CheckMeshScan(const MeshScanSettings & settings)
   return OutputsOf({ settings.mesh }, settings);
 }
 
+void
+CheckMesh(const MeshEstimate & mesh, const MeshScanSettings & settings)
+{
+  const LatticeSettings & lattice = settings.source.lattice;
+  if (lattice.denoising.kind != Denoising::Kind::None)
+  {
+    return;
+  }
+  const std::uintmax_t allowed = MemoryAllowance(lattice.maximumMemory > 0 ? lattice.maximumMemory : FreeMemory());
+  if (mesh.bytes.afterwards > allowed)
+  {
+    const double share = static_cast<double>(allowed) / static_cast<double>(mesh.bytes.afterwards);
+    RequireMemory(mesh.bytes.afterwards,
+                  allowed,
+                  "Making surfaces of " + DescribeTriangles(mesh.triangles),
+                  AdviseCoarser(lattice, share));
+  }
+  constexpr double most = std::numeric_limits<std::uint32_t>::max();
+  constexpr double bytesOfGLB = 24.0; // of a triangle with its share of the points
+  const auto files = HasFileForEach(settings.mesh) ? static_cast<double>(settings.surfaces.requests.size()) : 1.0;
+  const bool isSimplified = settings.finish.Simplifies();
+  const bool isLimitedByGLB = !isSimplified && LowerCase(settings.mesh.extension().string()) == ".glb";
+  // Closed surfaces have half as many points as triangles.
+  const double fitting = files * most * (isSimplified ? 2.0 : isLimitedByGLB ? 1.0 / bytesOfGLB : 1.0);
+  if (mesh.triangles >= fitting)
+  {
+    throw Failure(FailureKind::Memory,
+                  "The surfaces would have " + DescribeTriangles(mesh.triangles) + ", and 32-bit numbers" +
+                    (isLimitedByGLB ? " of lengths in GLB files" : " of points and triangles") + " reach for " +
+                    DescribeTriangles(fitting) + "; " + (isSimplified ? "" : "simplify them with --max-triangles, ") +
+                    (isLimitedByGLB ? "write a .ply or .vtp file, or "
+                     : isSimplified ? ""
+                                    : "or ") +
+                    AdviseCoarser(lattice, fitting / mesh.triangles) + ".");
+  }
+}
+
 std::vector<MadeFile>
 MeshScan(const MeshScanSettings & settings, const Events & events, std::optional<SourceVolume> volume)
 {
   CheckOutputs(CheckMeshScan(settings), settings.source, settings.surfaces, InputsOf(settings.colourBy));
   ScanSource source = settings.source;
   source.streams = true;
+  source.checkMesh = [&settings](const MeshEstimate & mesh) { CheckMesh(mesh, settings); };
   LoadedSource loaded = LoadSource(source, settings.surfaces, std::move(volume), events);
   CheckNumberOfSurfaces(loaded, settings);
   Report sourceReport = ReportSource(loaded, settings.source);

@@ -218,6 +218,14 @@ CountSlice(const TPixel * value, const itk::Size<3> & size, const Threshold & th
   return counts;
 }
 
+/** Sites of the lattice per sample of a scan. */
+double
+DensityOf(const LatticeSettings & lattice, const itk::ImageBase<3>::SpacingType & voxel)
+{
+  const auto & [x, y, z] = lattice.spacing;
+  return lattice.nested ? 0.5 : x > 0.0 ? voxel[0] * voxel[1] * voxel[2] / (2.0 * x * y * z) : lattice.density;
+}
+
 LoadedSource
 PrepareLattice(FCCVolume volume, const ScanSource & source, const SurfaceSelection & selection, const Events & events)
 {
@@ -285,14 +293,20 @@ PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & sel
   NoteThinBone(scan, loaded.requests, events);
   const Scan ordered = OrderAlongPatient(scan, source.lattice.maximumMemory);
   loaded.stream.mayBeInSlabs = MayBeInSlabs(loaded.requests);
-  loaded.stream.findSurfaces = [&] {
+  if (source.streams)
+  {
     constexpr std::size_t mostSlices = 64;
     const std::size_t depth = GeometryOf(ordered.image).GetLargestPossibleRegion().GetSize(2);
     const std::size_t step = (depth + mostSlices - 1) / mostSlices;
-    return EstimateMesh({ ordered.image, step, step }, loaded.requests, selection.mode, source.lattice.density).bytes;
-  };
+    const MeshEstimate mesh =
+      EstimateMesh({ ordered.image, step, step }, loaded.requests, selection.mode, source.lattice);
+    if (source.checkMesh)
+    {
+      source.checkMesh(mesh);
+    }
+    loaded.stream.surfaces = mesh.bytes;
+  }
   loaded.lattice = ScanToLattice(ordered, source.lattice, events, source.streams ? &loaded.stream : nullptr);
-  loaded.stream.findSurfaces = nullptr; // it refers to what ends here
   if (!IsSlanted(ordered))
   {
     loaded.grid = itk::ImageBase<3>::New();
@@ -307,7 +321,7 @@ MeshEstimate
 EstimateMesh(const SampledSlices & sample,
              const std::vector<SurfaceRequest> & requests,
              itk::FCCIsosurfaceMode mode,
-             double density)
+             const LatticeSettings & lattice)
 {
   constexpr double bytesOfTriangle = 24.0;      // with its share of the points and their normals
   constexpr double bytesWithSearch = 100.0;     // while crossings are searched for
@@ -334,6 +348,7 @@ EstimateMesh(const SampledSlices & sample,
     sum.pages += counts.pages;
   }
   // A plane cuts as many edges along two axes, on average of its directions, as it has faces of voxels.
+  const double density = DensityOf(lattice, GeometryOf(sample.image).GetSpacing());
   const double relativeDensity = density / itk::FCCLattice::DefaultDensity;
   const double faces = static_cast<double>(sum.crossings * sample.slicesOfEach);
   const double samples =

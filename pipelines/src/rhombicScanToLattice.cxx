@@ -79,14 +79,13 @@ PlanSlabs(itk::FCCImage<TPixel> & smoothed,
   const std::uintmax_t allowed = MemoryAllowance(settings.maximumMemory);
   const std::uintmax_t plane =
     region.GetSize(0) * region.GetSize(1) * (sizeof(TPixel) * (isSmoothed ? 2 : 1) + perSite);
-  plan.surfaces = stream.findSurfaces ? stream.findSurfaces() : SurfaceBytes();
-  const auto [besideSlab, afterwards] = plan.surfaces;
+  const std::uintmax_t besideSlab = stream.surfaces.besideSlab;
   const std::uintmax_t least = plan.scanBytes + around * plane;
-  if (afterwards > 0 && least + plane <= allowed)
+  if (least + plane <= allowed)
   {
-    RequireMemory(std::max(least + plane + besideSlab, afterwards),
+    RequireMemory(least + plane + besideSlab,
                   settings.maximumMemory,
-                  "A slab of the lattice, and then the surface, which takes some " + DescribeBytes(afterwards) + ",",
+                  "A slab of the lattice with its surfaces",
                   "use a coarser lattice with --density");
   }
   const std::uintmax_t planes = allowed > least + besideSlab ? (allowed - least - besideSlab) / plane : 0;
@@ -163,11 +162,12 @@ MakeSlabs(itk::FCCImage<TPixel> & lattice,
           LatticeStream & stream)
 {
   const LatticePlan & plan = stream.plan;
-  events.Note(
-    "the lattice of " + DescribeBytes(plan.latticeBytes) + " is more than the " +
-    DescribeBytes(MemoryAllowance(settings.maximumMemory)) + " that are allowed; it is made in " +
-    Count(plan.slabs, "slab") + ", again for each pass over it" +
-    (plan.surfaces.afterwards > 0 ? "; the surface will take some " + DescribeBytes(plan.surfaces.afterwards) : ""));
+  events.Note("the lattice of " + DescribeBytes(plan.latticeBytes) + " is more than the " +
+              DescribeBytes(MemoryAllowance(settings.maximumMemory)) + " that are allowed; it is made in " +
+              Count(plan.slabs, "slab") + ", again for each pass over it" +
+              (stream.surfaces.afterwards > 0
+                 ? "; the surface will take some " + DescribeBytes(stream.surfaces.afterwards)
+                 : ""));
   if (stream.onlyPlans)
   {
     return;

@@ -14,9 +14,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <random>
 #include <set>
 #include <sstream>
 
@@ -438,4 +440,75 @@ TEST_F(LargeScan, CompressedFilesAreRefusedWithTheCommandThatUnpacksThem)
     EXPECT_NE(std::string(failure.GetDescription()).find("gunzip -k tall.nii.gz"), std::string::npos)
       << failure.GetDescription();
   }
+}
+
+TEST_F(LargeScan, MeshesBeyondTheMemoryAreRefusedBeforeTheWork)
+{
+  const auto image = itk::Image<std::uint8_t, 3>::New();
+  image->SetRegions(itk::Size<3>{ { 60, 60, 60 } });
+  image->Allocate();
+  std::mt19937 random(7);
+  std::generate_n(
+    image->GetBufferPointer(), 60 * 60 * 60, [&random] { return static_cast<std::uint8_t>(random() % 256); });
+  const fs::path path = m_Folder.Path() / "noise.nii";
+  rhombic::WriteScan(rhombic::ScanImage(image), path);
+  rhombic::MeshScanSettings settings = this->SettingsOf(path, 10'000'000);
+  const auto sentenceOf = [](const auto & work) -> std::string {
+    try
+    {
+      work();
+    }
+    catch (const rhombic::Failure & failure)
+    {
+      EXPECT_EQ(failure.GetKind(), rhombic::FailureKind::Memory);
+      return failure.GetDescription();
+    }
+    return "no exception";
+  };
+  const auto plan = [&] { rhombic::PlanMeshScan(settings, {}); };
+  const auto mesh = [&] { this->Mesh(settings); };
+  const std::string sentence = sentenceOf(plan);
+  EXPECT_NE(sentence.find("Making surfaces of some 0.3"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("use a coarser lattice with --density 0.0"), std::string::npos) << sentence;
+  EXPECT_EQ(sentenceOf(mesh), sentence);
+  EXPECT_FALSE(fs::exists(settings.mesh));
+  settings.source.lattice.denoising = { rhombic::Denoising::Kind::Gaussian, 1.5, 0.0 };
+  EXPECT_EQ(sentenceOf(mesh), "no exception"); // of which little is left
+  settings.source = this->SourceOf(path, Plenty);
+  EXPECT_EQ(sentenceOf(plan), "no exception");
+}
+
+TEST_F(LargeScan, MeshesBeyond32BitsAreRefusedBeforeTheWork)
+{
+  rhombic::MeshScanSettings settings = this->SettingsOf("none.nii", Bytes(1) << 60);
+  const auto sentenceOf = [&settings](double triangles) -> std::string {
+    try
+    {
+      rhombic::CheckMesh({ triangles, {} }, settings);
+    }
+    catch (const rhombic::Failure & failure)
+    {
+      EXPECT_EQ(failure.GetKind(), rhombic::FailureKind::Memory);
+      return failure.GetDescription();
+    }
+    return "";
+  };
+  EXPECT_EQ(sentenceOf(4.2e9), "");
+  EXPECT_EQ(sentenceOf(5e9),
+            "The surfaces would have some 5000 million triangles, and 32-bit numbers of points and triangles reach for "
+            "some 4295 million triangles; simplify them with --max-triangles, or use a coarser lattice with --density "
+            "0.58, another threshold or a part of the scan.");
+  settings.finish.maximumTriangles = 1000;
+  EXPECT_EQ(sentenceOf(5e9), "");
+  EXPECT_NE(sentenceOf(9e9).find("some 8590 million triangles; use a coarser lattice"), std::string::npos)
+    << sentenceOf(9e9);
+  settings.finish = {};
+  settings.mesh = "mesh.glb";
+  EXPECT_EQ(sentenceOf(1.7e8), "");
+  EXPECT_NE(sentenceOf(2e8).find("of lengths in GLB files reach for some 179 million triangles; simplify them with "
+                                 "--max-triangles, write a .ply or .vtp"),
+            std::string::npos)
+    << sentenceOf(2e8);
+  settings.source.lattice.nested = true;
+  EXPECT_NE(sentenceOf(2e8).find("or use another threshold or"), std::string::npos);
 }
