@@ -310,7 +310,8 @@ PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & sel
   if (!IsSlanted(ordered))
   {
     loaded.grid = itk::ImageBase<3>::New();
-    loaded.grid->CopyInformation(&GeometryOf(ordered.image));
+    const DeepImage deep = MakeDeep(ordered.image);
+    loaded.grid->CopyInformation(&GeometryOf(deep.image));
   }
   return loaded;
 }

@@ -3,6 +3,7 @@
 #include "rhombicFailure.h"
 #include "rhombicMappedVoxels.h"
 #include "rhombicMemoryBudget.h"
+#include "rhombicPatientAxes.h"
 #include "rhombicEvents.h"
 #include "rhombicWording.h"
 
@@ -77,8 +78,10 @@ PlanSlabs(itk::FCCImage<TPixel> & smoothed,
   const itk::ImageRegion<3> & region = lattice.GetLargestPossibleRegion();
   LatticePlan & plan = stream.plan;
   const std::uintmax_t allowed = MemoryAllowance(settings.maximumMemory);
-  const std::uintmax_t plane =
-    region.GetSize(0) * region.GetSize(1) * (sizeof(TPixel) * (isSmoothed ? 2 : 1) + perSite);
+  const bool isExchanged =
+    stream.sources.size() > (isSmoothed ? 2u : 1u); // its planes of the scan take some 1.3 times as much
+  const std::size_t pixels = (isSmoothed ? 2 : 1) + (isExchanged ? 2 : 0);
+  const std::uintmax_t plane = region.GetSize(0) * region.GetSize(1) * (sizeof(TPixel) * pixels + perSite);
   const std::uintmax_t besideSlab = stream.surfaces.besideSlab;
   const std::uintmax_t least = plan.scanBytes + around * plane;
   if (least + plane <= allowed)
@@ -177,10 +180,12 @@ MakeSlabs(itk::FCCImage<TPixel> & lattice,
   BeginStream(lattice, plan.planesOfSlab);
 }
 
-/** Runs a filter from a scan's image to the lattice, and smooths the lattice by a Gaussian if that is asked for. */
+/** Runs a filter from a scan's image to the lattice, and smooths the lattice by a Gaussian if that is asked for.
+ * \param exchange makes the voxels of the image; null where it has them */
 template <typename TFilter>
 FCCVolume
 Resample(TFilter & filter,
+         itk::ProcessObject * exchange,
          const Scan & scan,
          const LatticeSettings & settings,
          const Events & events,
@@ -196,11 +201,19 @@ Resample(TFilter & filter,
   plan.scanBytes = std::max(used.scanBytes, CountScanBytes(scan, settings));
   plan.latticeBytes = lattice->GetLargestPossibleRegion().GetNumberOfPixels() *
                       sizeof(typename LatticeType::PixelType) * (isSmoothed ? 2 : 1);
-  plan.peak = plan.scanBytes + plan.latticeBytes;
+  const std::uintmax_t exchanged = exchange == nullptr
+                                     ? 0
+                                     : filter.GetInput()->GetLargestPossibleRegion().GetNumberOfPixels() *
+                                         sizeof(typename TFilter::InputImageType::PixelType);
+  plan.peak = plan.scanBytes + exchanged + plan.latticeBytes;
   const bool isInSlabs = stream != nullptr && used.mayBeInSlabs && plan.peak > MemoryAllowance(settings.maximumMemory);
   if (isInSlabs)
   {
     used.sources = { &filter };
+    if (exchange != nullptr)
+    {
+      used.sources.emplace_back(exchange);
+    }
     filter.SetReleaseDataFlag(isSmoothed);
     const auto smoothed = std::get<typename LatticeType::Pointer>(
       isSmoothed ? ConnectDenoising(lattice, settings.denoising, used.sources.emplace_back()) : FCCVolume(lattice));
@@ -208,7 +221,7 @@ Resample(TFilter & filter,
     lattice = smoothed;
     MakeSlabs(*lattice, scan, settings, events, used);
   }
-  else if (RequireLatticeMemory(plan, settings); !used.onlyPlans)
+  else if (plan.scanBytes += exchanged, RequireLatticeMemory(plan, settings); !used.onlyPlans)
   {
     ObserveProgress(filter, "resampling", events);
     filter.Update();
@@ -231,6 +244,7 @@ Resample(TFilter & filter,
 template <typename TImage>
 FCCVolume
 ResampleImage(const TImage & image,
+              itk::ProcessObject * exchange,
               const Scan & scan,
               const LatticeSettings & settings,
               const Events & events,
@@ -240,15 +254,18 @@ ResampleImage(const TImage & image,
   {
     const auto filter = itk::CartesianToNestedFCCImageFilter<TImage>::New();
     filter->SetInput(&image);
-    return Resample(*filter, scan, settings, events, stream);
+    return Resample(*filter, exchange, scan, settings, events, stream);
   }
   const auto filter = itk::CartesianToFCCImageFilter<TImage>::New();
   filter->SetInput(&image);
   filter->SetDensity(settings.density);
   filter->SetOutputSpacing(settings.spacing.data());
   filter->SetKernel(settings.kernel);
-  filter->SetScan(scan);
-  return Resample(*filter, scan, settings, events, stream);
+  if (exchange == nullptr)
+  {
+    filter->SetScan(scan);
+  }
+  return Resample(*filter, exchange, scan, settings, events, stream);
 }
 
 } // namespace
@@ -323,7 +340,9 @@ ScanToLattice(const Scan & scan, const LatticeSettings & settings, const Events 
   const bool isMade = stream == nullptr || !stream->onlyPlans;
   const ScanImage image =
     isMade ? DenoiseScan(scan.image, settings.denoising, settings.maximumMemory, events) : scan.image;
-  return std::visit([&](const auto & input) { return ResampleImage(*input, scan, settings, events, stream); }, image);
+  const DeepImage deep = IsSlanted(scan) ? DeepImage{ image, nullptr } : MakeDeep(image);
+  return std::visit(
+    [&](const auto & input) { return ResampleImage(*input, deep.source, scan, settings, events, stream); }, deep.image);
 }
 
 unsigned int

@@ -317,6 +317,35 @@ TEST_F(LargeScan, ExtremeShapesAreTheSameInSlabs)
   EXPECT_THROW(this->Mesh(flat, 500'000), rhombic::Failure);
 }
 
+TEST_F(LargeScan, FlatVolumesAreTheSameInSlabs)
+{
+  const auto image = itk::Image<std::uint8_t, 3>::New();
+  image->SetRegions(itk::Size<3>{ { 2840, 2840, 5 } });
+  image->Allocate(true);
+  for (const itk::IndexValueType place : { 3, 1400, 2833 }) // balls at the ends and in the middle
+  {
+    for (itk::IndexValueType z = 0; z < 5; ++z)
+    {
+      for (itk::IndexValueType y = std::max<itk::IndexValueType>(place - 9, 0); y < std::min(place + 9, 2840l); ++y)
+      {
+        for (itk::IndexValueType x = std::max<itk::IndexValueType>(place - 9, 0); x < std::min(place + 9, 2840l); ++x)
+        {
+          const double radius = std::hypot(static_cast<double>(x - place), y - place, z - 2);
+          image->SetPixel({ { x, y, z } },
+                          static_cast<std::uint8_t>(std::lround(100.0 + 90.0 * std::erf((5.0 - radius) / 2.0))));
+        }
+      }
+    }
+  }
+  const fs::path path = m_Folder.Path() / "flat.nii";
+  rhombic::WriteScan(rhombic::ScanImage(image), path);
+  rhombic::MeshScanSettings settings = this->SettingsOf(path, Plenty);
+  this->ExpectSameInSlabs(settings, 10'000'000); // the lattice takes 32 MB, one of its planes across the scan 5 MB
+  this->ExpectSameInSlabs(settings, 4'000'000);
+  settings.source.lattice.denoising = { rhombic::Denoising::Kind::Gaussian, 1.3, 0.0 };
+  this->ExpectSameInSlabs(settings, 10'000'000);
+}
+
 TEST_F(LargeScan, DicomFoldersAreMeshedInSlabs)
 {
   rhombic::PhantomSettings phantom;

@@ -111,4 +111,40 @@ TEST(PatientAxes, OrderedAxesRunAlongThePatientAndSamplesStay)
   }
 }
 
+TEST(PatientAxes, FlatVolumesAreTurnedAndSamplesStay)
+{
+  using FlatType = itk::Image<std::uint8_t, 3>;
+  const auto flat = FlatType::New();
+  const double spacing[] = { 0.5, 1.25, 3.0 };
+  const double origin[] = { -20.0, 7.5, 100.0 };
+  flat->SetRegions(itk::Size<3>{ { 2000, 4001, 3 } });
+  flat->SetSpacing(spacing);
+  flat->SetOrigin(origin);
+  flat->Allocate();
+  std::mt19937 random(7);
+  std::generate_n(flat->GetBufferPointer(), 2000 * 4001 * 3, [&random] { return static_cast<std::uint8_t>(random()); });
+  const rhombic::DeepImage deep = rhombic::MakeDeep(flat);
+  const auto & image = *std::get<FlatType::Pointer>(deep.image);
+  EXPECT_EQ(image.GetLargestPossibleRegion().GetSize(), (itk::Size<3>{ { 2000, 3, 4001 } }));
+  itk::ImageRegion<3> slab = image.GetLargestPossibleRegion();
+  slab.SetIndex(2, 1234);
+  slab.SetSize(2, 5);
+  auto & output = const_cast<FlatType &>(image);
+  output.SetRequestedRegion(slab);
+  output.PropagateRequestedRegion();
+  output.UpdateOutputData();
+  EXPECT_EQ(image.GetBufferedRegion(), slab);
+  for (itk::ImageRegionConstIteratorWithIndex<FlatType> it(&image, slab); !it.IsAtEnd(); ++it)
+  {
+    const auto position = image.TransformIndexToPhysicalPoint<double>(it.GetIndex());
+    const auto index = flat->TransformPhysicalPointToIndex(position);
+    ASSERT_LT(position.EuclideanDistanceTo(flat->TransformIndexToPhysicalPoint<double>(index)), 1e-9);
+    ASSERT_EQ(it.Get(), flat->GetPixel(index));
+  }
+  flat->SetRegions(itk::Size<3>{ { 2000, 4001, 2001 } }); // not flat
+  EXPECT_EQ(rhombic::MakeDeep(flat).source, nullptr);
+  flat->SetRegions(itk::Size<3>{ { 512, 512, 3 } }); // not large
+  EXPECT_EQ(rhombic::MakeDeep(flat).source, nullptr);
+}
+
 } // namespace

@@ -3,6 +3,8 @@
 
 #include "rhombicScan.h"
 
+#include "itkProcessObject.h"
+
 #include <cstdint>
 
 namespace rhombic
@@ -16,6 +18,20 @@ namespace rhombic
  * no room for it. \param maximumMemory bytes for the copies; 0: half of the free memory */
 Scan
 OrderAlongPatient(const Scan & scan, std::uintmax_t maximumMemory = 0);
+
+/** An image whose third axis is the one that work goes on along, plane by plane. */
+struct DeepImage
+{
+  ScanImage image;
+  itk::ProcessObject::Pointer source; ///< makes its voxels when they are asked for; null where it has them
+};
+
+/** The image, or, where its slices are few and larger than 8 million voxels, an image with its second and third axes
+ * exchanged: then planes of constant third index are small, and so is a slab with the planes around it. Samples keep
+ * their positions. That follows from the size alone, so that what is made of the image does not depend on the memory.
+ */
+DeepImage
+MakeDeep(const ScanImage & image);
 
 } // namespace rhombic
 

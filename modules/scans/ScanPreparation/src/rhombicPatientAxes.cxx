@@ -149,7 +149,60 @@ OrderAxes(typename TImage::Pointer image, std::uintmax_t maximumMemory)
   return output;
 }
 
+/** \class RowwisePermutation
+ * \brief itk::PermuteAxesImageFilter for orders that keep the first axis, whose rows are copied. */
+template <typename TImage>
+class RowwisePermutation : public itk::PermuteAxesImageFilter<TImage>
+{
+public:
+  using Pointer = itk::SmartPointer<RowwisePermutation>;
+  itkFactorylessNewMacro(RowwisePermutation);
+
+protected:
+  void
+  DynamicThreadedGenerateData(const itk::ImageRegion<3> & region) override
+  {
+    const TImage & input = *this->GetInput();
+    TImage & output = *this->GetOutput();
+    itk::Index<3> index = region.GetIndex();
+    for (; index[2] < region.GetIndex(2) + static_cast<itk::IndexValueType>(region.GetSize(2)); ++index[2])
+    {
+      for (index[1] = region.GetIndex(1);
+           index[1] < region.GetIndex(1) + static_cast<itk::IndexValueType>(region.GetSize(1));
+           ++index[1])
+      {
+        std::copy_n(input.GetBufferPointer() + input.ComputeOffset({ { index[0], index[2], index[1] } }),
+                    region.GetSize(0),
+                    output.GetBufferPointer() + output.ComputeOffset(index));
+      }
+    }
+  }
+};
+
 } // namespace
+
+DeepImage
+MakeDeep(const ScanImage & image)
+{
+  constexpr itk::SizeValueType large = 8'000'000;
+  return std::visit(
+    [](const auto & flat) -> DeepImage {
+      using Image = typename std::decay_t<decltype(*flat)>;
+      const itk::Size<3> & size = flat->GetLargestPossibleRegion().GetSize();
+      if (size[0] * size[1] <= large || size[1] < 2 * size[2])
+      {
+        return { flat, nullptr };
+      }
+      const auto exchange = RowwisePermutation<Image>::New();
+      const unsigned int order[] = { 0, 2, 1 };
+      exchange->SetOrder(Order(order));
+      exchange->SetInput(flat);
+      exchange->ReleaseDataFlagOn();
+      exchange->UpdateOutputInformation();
+      return { ScanImage(exchange->GetOutput()), exchange.GetPointer() };
+    },
+    image);
+}
 
 Scan
 OrderAlongPatient(const Scan & scan, std::uintmax_t maximumMemory)
