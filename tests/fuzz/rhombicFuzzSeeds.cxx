@@ -183,6 +183,62 @@ WritePresets(const fs::path & folder)
 }
 
 void
+WritePipelineFiles(const fs::path & folder)
+{
+  WriteSeed(folder / "pipeline",
+            "description: d\noptions: {preset: ct-bone}\noutputs:\n- page: page.png\n  view: left\n- mesh: a.stl\n"
+            "  labels: false\n  report: a.json\n- picture: \"a b.png\"\n  view: [left, right]\n- agreement: a.tsv\n");
+}
+
+void
+WriteManifests(const fs::path & folder)
+{
+  WriteSeed(folder / "manifest",
+            "case\tscan\tlabels\treference\toptions\none\ta.nii\tb.nii\t\t--series=1b\ntwo\tb.nii\t\ta.nii\t\n");
+}
+
+void
+WriteJournals(const fs::path & folder)
+{
+  WriteSeed(folder / "journal",
+            R"({"case":"one","folder":"one","status":"done","code":0,"seconds":1.5,"peakMemory":1048576,)"
+            R"("input":{"md5":"a","stamp":"b"},"steps":[{"output":"p.png","seconds":1.0}],)"
+            R"("outputs":[{"name":"p.png","bytes":5,"kind":"page","output":"p.png","md5":"c","surfaces":["d"]}],)"
+            R"("measures":[{"surface":"bone","surface_id":"d","volume_ml":1.25}],)"
+            R"("agreement":[{"output":"a.tsv","label":"liver","status":"compared",)"
+            R"("volume_difference_ml":1,"volume_difference_percent":2,"dice":0.9,"iou":0.8,"hd_mm":4,"hd95_mm":2.5,)"
+            R"("masd_mm":0.5,"assd_mm":0.5,"nsd":null,"centroid_shift_mm":1}]})"
+            "\n"
+            R"({"case":"two","folder":"two","status":"failed","code":4,"cause":"c","failedOutputs":["p.png"]})"
+            "\n{\"case\":\"cut");
+}
+
+void
+WriteAffineFiles(const fs::path & folder)
+{
+  WriteSeed(
+    folder / "affine",
+    "#Insight Transform File V1.0\n#Transform 0\nTransform: AffineTransform_double_3_3\nParameters: 1 0 0 0 1 0 "
+    "0 0.5 1 2 -3 4\nFixedParameters: 0 0 0\n");
+  WriteSeed(folder / "euler",
+            "Transform: Euler3DTransform_float_3_3\nParameters: 0.1 0 0 1 2 3\nFixedParameters: 5 6 7 0\n");
+}
+
+void
+WriteOMEZarr(const fs::path & folder)
+{
+  const std::string attributes =
+    R"({"multiscales":[{"version":"0.4","axes":[{"name":"z","type":"space","unit":"millimeter"},)"
+    R"({"name":"y","type":"space","unit":"millimeter"},{"name":"x","type":"space","unit":"millimeter"}],)"
+    R"("datasets":[{"path":"0","coordinateTransformations":[{"type":"scale","scale":[3,2,1]},)"
+    R"({"type":"translation","translation":[1,2,3]}]}]}]})";
+  const std::string array =
+    R"({"zarr_format":2,"shape":[2,2,2],"chunks":[2,2,2],"dtype":"|u1","compressor":null,"fill_value":0,)"
+    R"("order":"C","filters":null,"dimension_separator":"/"})";
+  WriteSeed(folder / "image", attributes + '\0' + array + '\0' + "12345678");
+}
+
+void
 WriteNIfTI(const fs::path & folder)
 {
   std::string header(352, '\0');
@@ -264,4 +320,9 @@ main(int argc, char ** argv)
   WritePresets(MakeFolder(folder / "rhombicPresetFuzz"));
   WriteSurfaceFiles(MakeFolder(folder / "rhombicSurfaceFileFuzz"));
   WriteNIfTI(MakeFolder(folder / "rhombicNIfTIFuzz"));
+  WritePipelineFiles(MakeFolder(folder / "rhombicPipelineFileFuzz"));
+  WriteManifests(MakeFolder(folder / "rhombicManifestFuzz"));
+  WriteJournals(MakeFolder(folder / "rhombicJournalFuzz"));
+  WriteAffineFiles(MakeFolder(folder / "rhombicAffineFileFuzz"));
+  WriteOMEZarr(MakeFolder(folder / "rhombicOMEZarrFuzz"));
 }
