@@ -252,10 +252,31 @@ AscentOf(const Layout & layout)
   return pango_units_to_double(pango_layout_get_baseline(layout.get()));
 }
 
+/** Pango leaves out the letters of a font whose file cannot be read. */
+void
+CheckFontsOf(const Layout & layout)
+{
+  PangoLayoutIter * const place = pango_layout_get_iter(layout.get());
+  bool isGood = true;
+  do
+  {
+    const PangoLayoutRun * const run = pango_layout_iter_get_run_readonly(place); // null at the end of a line
+    cairo_scaled_font_t * const font =
+      run == nullptr ? nullptr : pango_cairo_font_get_scaled_font(PANGO_CAIRO_FONT(run->item->analysis.font));
+    isGood = isGood && (run == nullptr || (font != nullptr && cairo_scaled_font_status(font) == CAIRO_STATUS_SUCCESS));
+  } while (pango_layout_iter_next_run(place));
+  pango_layout_iter_free(place);
+  if (!isGood)
+  {
+    throw Failure(FailureKind::Display, "Cannot draw text: the file of a font cannot be read; install the font again.");
+  }
+}
+
 /** Draws a layout whose first baseline begins at a position. */
 void
 ShowLayout(cairo_t * context, const Layout & layout, const PicturePosition & baseline, const TextStyle & style)
 {
+  CheckFontsOf(layout);
   const double ascent = AscentOf(layout);
   if (style.halo.opacity > 0.0)
   {
