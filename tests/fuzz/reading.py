@@ -230,7 +230,8 @@ def slice_of(data):
             return None
         pixels = elements[0x7FE00010][0]
         codes = struct.unpack_from(f"<{rows * columns}{'H' if allocated == 16 else 'B' if allocated == 8 else 'I'}", pixels)
-        slope, intercept = numbers_of(elements, 0x281053, [1.0])[0], numbers_of(elements, 0x281052, [0.0])[0]
+        scaling = [tag for tag in (0x281053, 0x281052) if tag in elements and elements[tag][0].strip()]
+        slope, intercept = (numbers_of(elements, tag)[0] if tag in scaling else absent for tag, absent in ((0x281053, 1.0), (0x281052, 0.0)))
         values = []
         for code in codes:
             code = code >> (high + 1 - stored) & (1 << stored) - 1
