@@ -68,8 +68,114 @@ protected:
     }
   }
 
+  /** Writes a TIFF file of several pages with widths, and an ImageDescription in each, and returns their values. */
+  std::vector<std::vector<std::uint16_t>>
+  WritePages(const std::string & name, const std::vector<int> & widths, const std::string & description) const
+  {
+    std::mt19937 random(static_cast<unsigned int>(widths.size()));
+    const std::string path = (m_Folder / name).string();
+    std::vector<OIIO::ImageSpec> specs;
+    for (const int width : widths)
+    {
+      specs.emplace_back(width, Height, 1, OIIO::TypeDesc::UINT16);
+      specs.back().attribute("ImageDescription", description);
+    }
+    std::vector<std::vector<std::uint16_t>> pages;
+    const auto output = OIIO::ImageOutput::create(path);
+    bool isWritten = output && output->open(path, static_cast<int>(specs.size()), specs.data());
+    for (std::size_t n = 0; n < specs.size() && isWritten; ++n)
+    {
+      auto & values = pages.emplace_back(static_cast<std::size_t>(widths[n]) * Height);
+      std::generate(values.begin(), values.end(), [&random] { return static_cast<std::uint16_t>(random() % 60000); });
+      isWritten = (n == 0 || output->open(path, specs[n], OIIO::ImageOutput::AppendSubimage)) &&
+                  output->write_image(OIIO::TypeDesc::UINT16, values.data());
+    }
+    EXPECT_TRUE(isWritten && output->close()) << name;
+    return pages;
+  }
+
+  /** OME-XML as Bio-Formats writes it. */
+  static std::string
+  DescribeByOME(const std::string & attributes)
+  {
+    return "<?xml version=\"1.0\" encoding=\"UTF-8\"?><OME xmlns=\"http://www.openmicroscopy.org/Schemas/OME/2016-06\">"
+           "<Image ID=\"Image:0\"><Pixels BigEndian=\"false\" DimensionOrder=\"XYCZT\" ID=\"Pixels:0\" " +
+           attributes + " Type=\"uint16\"><TiffData/></Pixels></Image></OME>";
+  }
+
   ScanReadOptions m_Options;
 };
+
+TEST_F(PictureStack, PagesOfATIFFFileAreSlices)
+{
+  const std::vector<int> widths(5, Width);
+  const auto pages = this->WritePages("a.tif", widths, "notes of a microscope");
+  const auto scan = ReadScan(m_Folder / "a.tif", m_Options);
+  this->ExpectSlices<std::uint16_t>(scan, pages);
+  EXPECT_EQ(scan.files.size(), 1u);
+  EXPECT_TRUE(rhombic::ListSeries(m_Folder / "a.tif", m_Options).series.empty());
+  this->ExpectSlices<std::uint16_t>(ReadScan(m_Folder, m_Options), pages); // the only picture of a folder
+  EXPECT_EQ(KindOfReading(m_Folder / "a.tif", "ScanReadOptions::voxelSize", {}), FailureKind::Usage);
+  Write<std::uint16_t>("b.tif", OIIO::TypeDesc::UINT16, 2);
+  EXPECT_EQ(KindOfReading(m_Folder, "a.tif: it has 5 pages", m_Options), FailureKind::Unreadable);
+  EXPECT_EQ(KindOfReading(m_Folder / "b.tif", "single picture", m_Options), FailureKind::Unreadable);
+}
+
+TEST_F(PictureStack, PagesThatAreNoSlicesAreRefused)
+{
+  this->WritePages("levels.tif", { Width, Width / 2 }, "");
+  EXPECT_EQ(KindOfReading(m_Folder / "levels.tif", "single picture", m_Options), FailureKind::Unreadable);
+  this->WritePages("levels.tif", { Width, Width, Width / 2 }, "");
+  EXPECT_EQ(KindOfReading(m_Folder / "levels.tif", "another size than the first", m_Options), FailureKind::Unreadable);
+  this->WritePages("channels.tif", { Width, Width }, DescribeByOME("SizeC=\"2\" SizeT=\"1\" SizeZ=\"1\""));
+  EXPECT_EQ(KindOfReading(m_Folder / "channels.tif", "2 channels", m_Options), FailureKind::Unreadable);
+  this->WritePages("some.tif", { Width, Width }, DescribeByOME("SizeC=\"1\" SizeT=\"1\" SizeZ=\"9\""));
+  EXPECT_EQ(KindOfReading(m_Folder / "some.tif", "9 slices, and it has 2 pages", m_Options), FailureKind::Unreadable);
+  this->WritePages("imagej.tif", { Width }, "ImageJ=1.53\nimages=900\nslices=900\n");
+  EXPECT_EQ(KindOfReading(m_Folder / "imagej.tif", "ImageJ has written 900 pictures", m_Options),
+            FailureKind::Unreadable);
+
+  this->WritePages("cut.tif", std::vector<int>(4, Width), "");
+  fs::resize_file(m_Folder / "cut.tif", fs::file_size(m_Folder / "cut.tif") - Width * Height);
+  EXPECT_EQ(KindOfReading(m_Folder / "cut.tif", "cut.tif", m_Options), FailureKind::Unreadable);
+}
+
+TEST_F(PictureStack, OMEXMLTellsTheSizeOfVoxels)
+{
+  const std::string sizes = "SizeC=\"1\" SizeT=\"1\" SizeZ=\"2\" ";
+  const std::vector<std::pair<std::string, std::array<double, 3>>> cases{
+    { R"(PhysicalSizeX="0.5" PhysicalSizeY="0.25" PhysicalSizeZ="2")", { 0.0005, 0.00025, 0.002 } },
+    { R"(PhysicalSizeX="500" PhysicalSizeXUnit="nm" PhysicalSizeY="0.25" PhysicalSizeYUnit="mm" PhysicalSizeZ="2")",
+      { 0.0005, 0.25, 0.002 } },
+    { "PhysicalSizeX='5' PhysicalSizeXUnit='\xC2\xB5m' PhysicalSizeY = '5' PhysicalSizeYUnit='&#181;m' "
+      "PhysicalSizeZ='1' PhysicalSizeZUnit='cm'",
+      { 0.005, 0.005, 10.0 } }
+  };
+  for (const auto & [attributes, expected] : cases)
+  {
+    const auto pages = this->WritePages("a.ome.tif", { Width, Width }, DescribeByOME(sizes + attributes));
+    const auto scan = rhombic::ReadScan(m_Folder / "a.ome.tif");
+    this->ExpectSlices<std::uint16_t>(scan, pages);
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      EXPECT_DOUBLE_EQ(rhombic::GeometryOf(scan.image).GetSpacing()[axis], expected[axis]) << attributes;
+    }
+  }
+  const auto given = ReadScan(m_Folder / "a.ome.tif", m_Options); // wins, and is told
+  EXPECT_DOUBLE_EQ(rhombic::GeometryOf(given.image).GetSpacing()[2], 0.01);
+  EXPECT_TRUE(std::any_of(given.notes.begin(), given.notes.end(), [](const std::string & note) {
+    return note.find("OME-XML") != std::string::npos;
+  }));
+  for (const char * const attributes : { "PhysicalSizeX=\"0.5\" PhysicalSizeY=\"0.25\"",
+                                         "PhysicalSizeX=\"1\" PhysicalSizeY=\"1\" PhysicalSizeZ=\"-1\"",
+                                         "PhysicalSizeX=\"1\" PhysicalSizeY=\"1\" PhysicalSizeZ=\"nan\"",
+                                         "PhysicalSizeX=\"1\" PhysicalSizeY=\"1\" PhysicalSizeZ=\"1\" "
+                                         "PhysicalSizeZUnit=\"pixel\"" })
+  {
+    this->WritePages("a.ome.tif", { Width, Width }, DescribeByOME(sizes + attributes));
+    EXPECT_EQ(KindOfReading(m_Folder / "a.ome.tif", "along each axis", {}), FailureKind::Usage) << attributes;
+  }
+}
 
 TEST_F(PictureStack, IsReadInTheOrderOfNumbers)
 {

@@ -59,8 +59,8 @@ struct ScanReadOptions
   /** The level of the pyramid of an OME-Zarr image, from 0, the finest. Other formats have level 0 only. */
   std::size_t level = 0;
 
-  /** The size of a voxel along x, y and z in mm, for files of bare voxels, pictures, and OME-Zarr images that do not
-   * tell it; an error for others. */
+  /** The size of a voxel along x, y and z in mm, for files of bare voxels, pictures (in place of what OME-XML in TIFF
+   * files tells), and OME-Zarr images that do not tell it; an error for others. */
   std::optional<std::array<double, 3>> voxelSize;
 
   /** For a file of bare voxels, whatever its name; needs the \a voxelSize. Nothing, the default, for other files. */
@@ -115,7 +115,8 @@ struct UnreadScan
 
 /** Opens a scan or label map: a folder of DICOM slices, searched with its subfolders; a DICOM file that holds a volume
  * (enhanced multi-frame, or a segmentation); a folder of OME-Zarr 0.4 (OMEZarrImage); a folder of grey pictures of one
- * size (TIFF, PNG, JPEG 2000, BMP), which are slices in the order of the numbers in their names; a file of bare voxels
+ * size (TIFF, PNG, JPEG 2000, BMP), which are slices in the order of the numbers in their names; a TIFF file of several
+ * pages of one size, which are slices; a file of bare voxels
  * (ScanReadOptions::raw); or a NIfTI-1 or -2 (.nii, .hdr with .img, either with .gz), NRRD (.nrrd, .nhdr) or MetaImage
  * (.mha, .mhd) file. A folder of such files without any DICOM file holds masks, and label maps if need be, of one grid:
  * they are read as one label map. A label keeps its value, from 1 to 65,535, if no label before it has the same;

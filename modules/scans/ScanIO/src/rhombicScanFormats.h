@@ -49,17 +49,22 @@ ListDicomSeries(const std::filesystem::path & path, bool isFolder, const ScanRea
 std::vector<std::filesystem::path>
 FindMasks(const std::filesystem::path & folder, bool followsLinks);
 
+/** Whether a path has the extension of a picture (TIFF, PNG, JPEG 2000, BMP). */
+bool
+IsPicture(const std::filesystem::path & path);
+
 /** The pictures (TIFF, PNG, JPEG 2000, BMP) in a folder that holds any, and no DICOM files, in the order of the numbers
  * in their names; without hidden files, and without symbolic links unless \a followsLinks. Empty for other folders. */
 std::vector<std::filesystem::path>
 FindPictures(const std::filesystem::path & folder, bool followsLinks);
 
-/** Opens grey pictures of one size and type as the slices of a volume, with ScanReadOptions::voxelSize. Their values
- * are unpacked by child processes. Throws Failure as OpenScan() does: Unreadable, naming both files, for pictures that
- * differ. */
+/** Opens grey pictures of one size and type, or the pages of one TIFF file, as the slices of a volume, whose voxels
+ * have ScanReadOptions::voxelSize, or the size that OME-XML in the ImageDescription of the first tells. Values are
+ * unpacked by child processes. Throws Failure as OpenScan() does: Unreadable, naming both files, for pictures that
+ * differ, and for pages that are no slices of one volume. \param path the folder, or the only picture */
 UnreadScan
 OpenPictureStack(const std::vector<std::filesystem::path> & pictures,
-                 const std::filesystem::path & folder,
+                 const std::filesystem::path & path,
                  const ScanReadOptions & options);
 
 /** Opens masks and label maps of one grid as one label map (see LabelUnion). They are read one after the other; labels

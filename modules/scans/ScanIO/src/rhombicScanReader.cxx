@@ -85,6 +85,12 @@ Open(const fs::path & path, const ScanReadOptions & options)
       return OpenPictureStack(pictures, path, options);
     }
   }
+  if (!isFolder && !options.raw && IsPicture(path))
+  {
+    RequireNoSeries(path, options);
+    RequireNoLevel(path, options);
+    return OpenPictureStack({ path }, path, options);
+  }
   RequireNoFurtherChoices(path, isFolder, options);
   if (isFolder)
   {
@@ -164,7 +170,7 @@ ListSeries(const fs::path & path, const ScanReadOptions & options)
     const bool isFolder = IsFolder(path);
     const bool hasSeries = isFolder ? !IsZarr(path) && FindMasks(path, options.followsLinks).empty() &&
                                         FindPictures(path, options.followsLinks).empty()
-                                    : VolumeFormatOf(path).empty() && !options.raw;
+                                    : VolumeFormatOf(path).empty() && !options.raw && !IsPicture(path);
     return hasSeries ? ListDicomSeries(path, isFolder, options) : SeriesList();
   });
 }

@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstring>
 #include <map>
@@ -40,12 +41,6 @@ PictureFormatOf(const fs::path & path)
                                                            { ".j2k", "jpeg2000" }, { ".bmp", "bmp" } };
   const auto found = formats.find(LowerCase(path.extension().string()));
   return found == formats.end() ? "" : found->second;
-}
-
-bool
-IsPicture(const fs::path & path)
-{
-  return !PictureFormatOf(path).empty();
 }
 
 /** Whether a name comes before another one, where numbers in them count by their values: slice2 before slice10. */
@@ -95,6 +90,12 @@ struct PictureHeader
   int channels = 0;
   std::string type; ///< as "uint16"
   int bits = 0;     ///< of a value in the file; 0 if unknown
+
+  std::size_t pages = 1;              ///< of the size of the first; this and all below of TIFF only
+  std::size_t otherPages = 0;         ///< of other sizes
+  std::size_t announced = 0;          ///< how many pages ImageJ has written, perhaps behind each other as one
+  std::array<std::size_t, 3> sizes{}; ///< by OME-XML: slices, channels, times; 0 for unknown
+  std::array<double, 3> voxel{};      ///< by OME-XML, in mm; 0 for unknown
 };
 
 SandboxJob
@@ -115,7 +116,16 @@ ReadPictureHeader(const fs::path & path)
   const auto * const text = reinterpret_cast<const char *>(piece->data);
   const auto json = nlohmann::json::parse(text, text + piece->size);
   run.Next();
-  return { json.at("width"), json.at("height"), json.at("channels"), json.at("type"), json.at("bits") };
+  PictureHeader header{ json.at("width"), json.at("height"), json.at("channels"), json.at("type"), json.at("bits") };
+  if (json.contains("pages"))
+  {
+    header.pages = json.at("pages");
+    header.otherPages = json.at("others");
+    header.announced = json.at("announced");
+    header.sizes = json.at("sizes");
+    header.voxel = json.at("voxel");
+  }
+  return header;
 }
 
 /** The type of a stack's values. Throws Failure for others, colours, and sizes that no volume has. */
@@ -159,16 +169,79 @@ RequireSame(const PictureHeader & header,
                    "; a stack has slices of one kind, so move others to another folder");
 }
 
+/** Throws Failure for a picture of several pages, or of one that stands for several. */
+void
+RequireOnePage(const PictureHeader & header, const fs::path & path)
+{
+  RefuseVolumeIf(header.pages > 1,
+                 path,
+                 "it has " + Count(header.pages, "page") +
+                   ", and a slice of a stack of pictures has one; name the file itself to read its pages as slices, or "
+                   "move it to another folder");
+}
+
+/** Throws Failure for pages that are not the slices of one volume. */
+void
+RequireSlices(const PictureHeader & header, const fs::path & path)
+{
+  RefuseVolumeIf(header.announced > header.pages + header.otherPages,
+                 path,
+                 "ImageJ has written " + Count(header.announced, "picture") + " into it and a list of " +
+                   Count(header.pages, "page") + ", as it does above 4 GB; save it as OME-TIFF, or as single pictures");
+  RefuseVolumeIf(header.pages > 1 && header.otherPages > 0,
+                 path,
+                 Count(header.otherPages, "page") +
+                   " of it have another size than the first, as the levels of a pyramid; save the slices alone");
+  const auto [slices, channels, times] = header.sizes;
+  RefuseOtherIf(header.pages > 1 && channels * times > 1,
+                path,
+                "its OME-XML tells of " + Count(channels, "channel") + " at " + Count(times, "time") +
+                  ", and a volume has one of each; save one channel of one time");
+  RefuseVolumeIf(header.pages > 1 && slices > header.pages,
+                 path,
+                 "its OME-XML tells of " + Count(slices, "slice") + ", and it has " + Count(header.pages, "page") +
+                   "; put the files of all slices into one folder, or copy it again");
+}
+
+/** The voxel size that is given, or that OME-XML tells. Throws Failure(Usage) where there is none. */
+std::array<double, 3>
+FindVoxelSize(const PictureHeader & first, const fs::path & path, const ScanReadOptions & options, Scan & scan)
+{
+  const bool isTold = std::all_of(first.voxel.begin(), first.voxel.end(), [](double size) { return size > 0.0; });
+  const bool isPartlyTold = !isTold && first.voxel != std::array<double, 3>{};
+  FailIf(!isTold && !options.voxelSize,
+         FailureKind::Usage,
+         "Cannot read the pictures in " + path.string() + " as slices: they do not tell how large their voxels are" +
+           (isPartlyTold ? " along each axis (PhysicalSizeX, Y and Z of OME-XML)" : "") +
+           "; give their size with ScanReadOptions::voxelSize.");
+  if (isTold && options.voxelSize && *options.voxelSize != first.voxel)
+  {
+    const auto describe = [](const std::array<double, 3> & size) {
+      return DescribeSpacing(itk::Vector<double, 3>(size.data()));
+    };
+    scan.notes.push_back("The voxels of " + path.string() + " are taken for " + describe(*options.voxelSize) +
+                         " as it is given, and not for " + describe(first.voxel) + " as OME-XML tells.");
+  }
+  return options.voxelSize.value_or(first.voxel);
+}
+
 /** \class PictureStack
- * \brief The values of pictures of one size and type, which are slices. */
+ * \brief The values of pictures of one size and type, or of the pages of one picture, which are slices. */
 class PictureStack
 {
 public:
   PictureStack(std::vector<fs::path> pictures, const PictureHeader & header, StoredType type)
     : m_Pictures(std::move(pictures))
+    , m_Pages(header.pages)
     , m_Rows(header.height)
     , m_RowBytes(header.width * SizeOf(type))
   {}
+
+  std::size_t
+  GetDepth() const
+  {
+    return m_Pictures.size() * m_Pages;
+  }
 
   std::size_t
   GetSliceBytes() const
@@ -180,21 +253,25 @@ public:
   void
   Read(std::size_t slice, std::byte * values) const
   {
-    const fs::path & path = m_Pictures[slice];
+    const fs::path & path = m_Pictures[slice / m_Pages];
+    const std::string page = std::to_string(slice % m_Pages);
+    const std::string other =
+      "its page " + page + " (from 0) is of another size or type than the first, or has changed";
     const std::size_t band = std::max(LargestBand, 512 * m_RowBytes); // with all rows of a tile
-    SandboxRun run(JobOf(path, "pixels", std::min(band, this->GetSliceBytes())));
+    SandboxRun run(JobOf(path, page, std::min(band, this->GetSliceBytes())));
     std::size_t done = 0;
     while (const auto piece = run.Next())
     {
-      RefuseVolumeIf(piece->size > this->GetSliceBytes() - done, path, "it has changed; try again");
+      RefuseVolumeIf(piece->size > this->GetSliceBytes() - done, path, other);
       std::memcpy(values + done, piece->data, piece->size);
       done += piece->size;
     }
-    RefuseVolumeIf(done != this->GetSliceBytes(), path, "it has changed; try again");
+    RefuseVolumeIf(done != this->GetSliceBytes(), path, other);
   }
 
 private:
   std::vector<fs::path> m_Pictures;
+  std::size_t m_Pages; ///< of each
   std::size_t m_Rows;
   std::size_t m_RowBytes;
 };
@@ -273,6 +350,12 @@ NativeVoxelsOfStack(const PictureStack & stack, StoredType type, const VolumeGeo
 
 } // namespace
 
+bool
+IsPicture(const fs::path & path)
+{
+  return !PictureFormatOf(path).empty();
+}
+
 std::vector<fs::path>
 FindPictures(const fs::path & folder, bool followsLinks)
 {
@@ -303,57 +386,59 @@ FindPictures(const fs::path & folder, bool followsLinks)
 }
 
 UnreadScan
-OpenPictureStack(const std::vector<fs::path> & pictures, const fs::path & folder, const ScanReadOptions & options)
+OpenPictureStack(const std::vector<fs::path> & pictures, const fs::path & path, const ScanReadOptions & options)
 {
-  FailIf(!options.voxelSize,
-         FailureKind::Usage,
-         "Cannot read the pictures in " + folder.string() +
-           " as slices: they do not tell how large their voxels are; give their size with ScanReadOptions::voxelSize.");
   FailIf(options.frame.has_value(),
          FailureKind::Usage,
-         "Cannot read a volume of several in " + folder.string() +
-           ": a stack of pictures is one; leave out ScanReadOptions::frame.");
+         "Cannot read a volume of several in " + path.string() +
+           ": pictures are the slices of one; leave out ScanReadOptions::frame.");
   std::vector<PictureHeader> headers(pictures.size());
   ForEachOnThreads(pictures.size(), [&](std::size_t n) { headers[n] = ReadPictureHeader(pictures[n]); });
   const PictureHeader & first = headers.front();
   const StoredType type = FindType(first, pictures.front());
-  for (std::size_t n = 1; n < pictures.size(); ++n)
+  for (std::size_t n = 0; n < pictures.size() && pictures.size() > 1; ++n)
   {
     RequireSame(headers[n], pictures[n], first, pictures.front());
+    RequireOnePage(headers[n], pictures[n]);
   }
-  const VolumeGeometry geometry =
-    MakeUnplacedGeometry({ { first.width, first.height, pictures.size() } }, *options.voxelSize);
+  RefuseVolumeIf(path == pictures.front() && first.pages == 1 && first.announced < 2,
+                 path,
+                 "it is a single picture, which is no volume; give the folder of all slices");
+  RequireSlices(first, pictures.front());
+  const PictureStack stack(pictures, first, type);
   UnreadScan file;
   Scan & scan = file.scan;
-  CheckGeometry(geometry, folder, "voxel size", options.onTilted, scan.notes);
+  const VolumeGeometry geometry = MakeUnplacedGeometry({ { first.width, first.height, stack.GetDepth() } },
+                                                       FindVoxelSize(first, path, options, scan));
+  CheckGeometry(geometry, path, "voxel size", options.onTilted, scan.notes);
   scan.format = "pictures";
   scan.encoding = PictureFormatOf(pictures.front());
   scan.isOriented = false;
   scan.files = pictures;
   scan.image = NewVolumeImage(type, false, geometry);
-  scan.notes.push_back(
-    folder.string() + " holds " + Count(pictures.size(), "picture") +
-    ", which are taken for slices in the order of the numbers in their names, with axes to the left, "
-    "posterior and superior, so that left and right are a guess.");
+  scan.notes.push_back(path.string() + " holds " +
+                       (first.pages > 1 ? Count(first.pages, "page") + ", which are taken for slices"
+                                        : Count(pictures.size(), "picture") +
+                                            ", which are taken for slices in the order of the numbers in their names") +
+                       ", with axes to the left, posterior and superior, so that left and right are a guess.");
   if (const auto bits = static_cast<std::size_t>(first.bits); bits > 0 && bits != 8 * SizeOf(type))
   {
     scan.notes.push_back("The pictures hold values of " + std::to_string(first.bits) + " bits, which are read as " +
                          std::to_string(8 * SizeOf(type)) + " bits, scaled to their range.");
   }
-  const PictureStack stack(pictures, first, type);
   file.findPlace = [=] {
     const std::uintmax_t bytes = MemoryOfPixels(type, false, geometry.GetNumberOfVoxels());
     if (bytes <= MemoryAllowance(options.maximumMemory))
     {
       return VoxelPlace::Memory;
     }
-    RequireRoomForTemporaryFile(bytes, folder);
+    RequireRoomForTemporaryFile(bytes, path);
     return VoxelPlace::TemporaryFile;
   };
   file.readVoxels = [=, findPlace = file.findPlace](Scan & read) {
     const bool isLarge = findPlace() == VoxelPlace::TemporaryFile;
-    read.image = ReadStack(stack, type, geometry, isLarge ? folder : fs::path(), options.progress);
-    ReplaceNotFinite(folder, read);
+    read.image = ReadStack(stack, type, geometry, isLarge ? path : fs::path(), options.progress);
+    ReplaceNotFinite(path, read);
   };
   file.native = NativeVoxelsOfStack(stack, type, geometry);
   return file;
