@@ -158,6 +158,7 @@ TEST_F(TextVolume, HeadersThatMakeNoSenseAreRefused)
                                       Raw + "kinds: RGB-color domain domain\n",
                                       Raw + "spacings:\n",
                                       Raw + "spacings:1 2 3\n",
+                                      std::string("type: uint8\ndimension: (3\nsizes: 2 2 2\nencoding: raw\n"),
                                       std::string("type: uint8\ndimension:3\nsizes: 2 2 2\nencoding: raw\n"),
                                       Raw + "data file: LIST\n",
                                       Raw + "data file: ../a.raw\n",
@@ -172,6 +173,7 @@ TEST_F(TextVolume, HeadersThatMakeNoSenseAreRefused)
   for (const std::string & fields :
        { std::string("NDims = 3\n"),
          std::string("NDims = 3\nDimSize = 2 2\nElementType = MET_UCHAR\n"),
+         std::string("NDims = (3\nDimSize = 2 2 2\nElementType = MET_UCHAR\n"),
          std::string("NDims = 3\nDimSize = 2 2 -2\nElementType = MET_UCHAR\n"),
          std::string("NDims = 3\nDimSize = 2000000000 2000000000 2000000000\nElementType = MET_UCHAR\n"),
          std::string("NDims = 3\nDimSize = 2 2 3\nElementType = MET_UCHAR\n"),

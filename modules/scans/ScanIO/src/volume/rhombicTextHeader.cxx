@@ -18,10 +18,8 @@ constexpr std::uintmax_t LargestCount = std::numeric_limits<std::int32_t>::max()
 
 template <typename TNumber>
 std::optional<std::vector<TNumber>>
-Parse(std::string text)
+Parse(std::string_view text)
 {
-  std::replace_if(
-    text.begin(), text.end(), [](char letter) { return letter == ',' || letter == '(' || letter == ')'; }, ' ');
   std::vector<TNumber> numbers;
   for (const std::string_view word : SplitWords(text))
   {
@@ -95,7 +93,10 @@ HeaderLines::Read(std::string & line)
 std::optional<std::vector<double>>
 NumbersOf(const std::string & text)
 {
-  return Parse<double>(text);
+  std::string words = text;
+  std::replace_if(
+    words.begin(), words.end(), [](char letter) { return letter == ',' || letter == '(' || letter == ')'; }, ' ');
+  return Parse<double>(words);
 }
 
 std::optional<std::vector<std::uintmax_t>>
