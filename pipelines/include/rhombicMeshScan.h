@@ -40,7 +40,8 @@ std::vector<std::filesystem::path>
 CheckMeshScan(const MeshScanSettings & settings);
 
 /** Throws Failure(Memory) for surfaces that the memory (all that is free, without a limit) or the file can't hold.
- * MeshScan() calls it before its work. Does nothing for a denoised scan, whose surfaces may be far smaller. */
+ * MeshScan() calls it before its work. Does nothing for a denoised scan, whose surfaces may be far smaller; surfaces of
+ * up to 4 MiB are never too large for the memory. */
 void
 CheckMesh(const MeshEstimate & mesh, const MeshScanSettings & settings);
 

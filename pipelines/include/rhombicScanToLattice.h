@@ -55,6 +55,7 @@ struct LatticeStream
   bool mayBeInSlabs = true;     ///< otherwise it must fit
   std::uintmax_t scanBytes = 0; ///< of a scan that has no voxels yet: what it will take of the memory
   bool onlyPlans = false;       ///< nothing is made but the plan, and a lattice without samples
+  std::function<void()> check;  ///< called when the lattice's size is known to be right; may be empty, and may throw
 
   LatticePlan plan;
   std::vector<itk::ProcessObject::Pointer> sources; ///< make the slabs, one behind the other; none for a whole lattice

@@ -235,7 +235,6 @@ PlanMeshScan(const MeshScanSettings & settings, const Events & events)
   if (!known.empty())
   {
     mesh = EstimateMesh({ slices, 1, step }, known, settings.surfaces.mode, settings.source.lattice);
-    CheckMesh(mesh, settings);
   }
   std::string text = "voxels        " + DescribePlace(unread) + '\n';
   std::uintmax_t volumes = unread.CountInMemory();
@@ -245,6 +244,7 @@ PlanMeshScan(const MeshScanSettings & settings, const Events & events)
     LatticeStream stream;
     stream.surfaces = mesh.bytes;
     stream.mayBeInSlabs = MayBeInSlabs(requests);
+    stream.check = [&] { CheckMesh(mesh, settings); }; // nothing is refused of a mesh that is not known
     plan = PlanLattice(unread, settings.source.lattice, stream, events);
     volumes += plan.peak - plan.scanBytes;
     text += "lattice       " + DescribeLattice(plan, CountPasses(settings, requests)) + '\n';

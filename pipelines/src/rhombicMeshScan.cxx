@@ -431,7 +431,8 @@ CheckMesh(const MeshEstimate & mesh, const MeshScanSettings & settings)
     return;
   }
   const std::uintmax_t allowed = MemoryAllowance(lattice.maximumMemory > 0 ? lattice.maximumMemory : FreeMemory());
-  if (mesh.bytes.afterwards > allowed)
+  constexpr std::uintmax_t small = std::uintmax_t{ 4 } << 20; // less than the program itself takes
+  if (mesh.bytes.afterwards > std::max(allowed, small))
   {
     const double share = static_cast<double>(allowed) / static_cast<double>(mesh.bytes.afterwards);
     RequireMemory(mesh.bytes.afterwards,

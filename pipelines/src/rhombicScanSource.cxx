@@ -300,13 +300,11 @@ PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & sel
     const std::size_t step = (depth + mostSlices - 1) / mostSlices;
     const MeshEstimate mesh =
       EstimateMesh({ ordered.image, step, step }, loaded.requests, selection.mode, source.lattice);
-    if (source.checkMesh)
-    {
-      source.checkMesh(mesh);
-    }
+    loaded.stream.check = [check = source.checkMesh, mesh] { check ? check(mesh) : void(); };
     loaded.stream.surfaces = mesh.bytes;
   }
   loaded.lattice = ScanToLattice(ordered, source.lattice, events, source.streams ? &loaded.stream : nullptr);
+  loaded.stream.check = nullptr;
   if (!IsSlanted(ordered))
   {
     loaded.grid = itk::ImageBase<3>::New();

@@ -195,6 +195,7 @@ Resample(TFilter & filter,
   CheckSize(filter);
   LatticeStream none;
   LatticeStream & used = stream != nullptr ? *stream : none;
+  used.check ? used.check() : void();
   const bool isSmoothed = settings.denoising.kind == Denoising::Kind::Gaussian;
   typename LatticeType::Pointer lattice = filter.GetOutput();
   LatticePlan & plan = used.plan;
