@@ -137,9 +137,8 @@ ScanOptions::SourceTable()
       ShowingDefault },
     { "--voxel-size",
       &ScanOptions::voxelSize,
-      "the size of a voxel, as 5um, 0.005 (mm) or x,y,z, for --raw, for a folder of pictures, and for an OME-Zarr "
-      "image "
-      "that does not tell it" },
+      "the size of a voxel, as 5um, 0.005 (mm) or x,y,z, for --raw, for pictures, and for an OME-Zarr image that does "
+      "not tell it" },
     { "--raw",
       &ScanOptions::raw,
       "SCAN is a file of bare voxels: columns x rows x slices, type and byte order, as 2048x2048x2048,uint16,le; with "
