@@ -260,12 +260,11 @@ WritePage(const Options & options)
 {
   UseThreads(options.threads);
   std::ostringstream page;
-  page
-    << "# Whether surfaces of scans can be trusted\n\n"
-       "`rhombic-trust --scans SCANS --page pipelines/comparison/TRUST.md` makes this page.\n"
-       "[Benchmarks](../../tests/benchmarks/README.md) explain the columns.\n\n"
-       "| scan | isovalue | mode | triangles | file | crossings | volume ml | volume error % | mean mm | 95 % mm | "
-       "max mm |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+  page << "# Whether surfaces of scans can be trusted\n\n"
+          "`rhombic-trust --scans SCANS --page pipelines/comparison/TRUST.md` makes this page.\n"
+          "[Benchmarks](../../tests/benchmarks/README.md) explain the columns.\n\n"
+          "| scan | isovalue | mode | triangles | file | crossings | volume ml | volume error % | mean mm | 95 % mm | "
+          "max mm |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
   unsigned int rows = 0;
   unsigned int solids = 0;
   std::string read;

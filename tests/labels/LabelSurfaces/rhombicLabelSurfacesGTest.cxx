@@ -997,6 +997,66 @@ FarthestPoint(const itk::TriangleSurface & points, const itk::TriangleSurface & 
   return farthest;
 }
 
+/** The surfaces of all labels. */
+std::vector<rhombic::SceneSurface>
+ScenesOf(const rhombic::LabelMesh & mesh)
+{
+  std::vector<rhombic::SceneSurface> surfaces;
+  for (const LabelSurface & label : mesh.labels)
+  {
+    surfaces.push_back(label.scene);
+  }
+  return surfaces;
+}
+
+/** The corners of a surface's triangles, whichever way they face. */
+std::set<std::array<itk::TriangleSurface::PointType, 3>>
+CornersOfTriangles(const itk::TriangleSurface & surface)
+{
+  std::set<std::array<itk::TriangleSurface::PointType, 3>> corners;
+  for (const auto & [a, b, c] : surface.GetTriangles())
+  {
+    std::array<itk::TriangleSurface::PointType, 3> triangle{ surface.GetPoints()[a],
+                                                             surface.GetPoints()[b],
+                                                             surface.GetPoints()[c] };
+    std::sort(triangle.begin(), triangle.end());
+    corners.insert(triangle);
+  }
+  return corners;
+}
+
+TEST(LabelSurfaces, InFewerTrianglesAreAtTheirPlaces)
+{
+  rhombic::LabelMesh mesh = rhombic::LabelsToWalls( // two halves of a ball around a smaller ball
+    MakeMap(40,
+            [](const Point & point) {
+              const double radius = point.GetVectorFromOrigin().GetNorm();
+              return radius < 8.0 ? 3 : radius < 16.0 ? (point[0] < 0.0 ? 1 : 2) : 0;
+            }),
+    {},
+    {});
+  rhombic::ExtractSurfaces(mesh);
+  constexpr double distance = 0.05;
+  const auto fewer = rhombic::InFewerTriangles(ScenesOf(mesh), distance);
+  ASSERT_EQ(fewer.size(), 3);
+  for (std::size_t n = 0; n < fewer.size(); ++n)
+  {
+    const itk::TriangleSurface & whole = *mesh.labels[n].scene.surface;
+    const itk::TriangleSurface & small = *fewer[n].surface;
+    EXPECT_TRUE(ComputeTriangleSurfaceTopology(small).IsWatertight());
+    EXPECT_LT(2 * small.GetNumberOfTriangles(), whole.GetNumberOfTriangles());
+    EXPECT_EQ(small.GetNormals().size(), small.GetNumberOfPoints());
+    EXPECT_NEAR(ComputeTriangleSurfaceVolume(small) / ComputeTriangleSurfaceVolume(whole), 1.0, 0.01);
+    EXPECT_LT(FarthestPoint(whole, small), 3.0 * distance) << n;
+  }
+  const auto first = CornersOfTriangles(*fewer[0].surface);
+  const auto second = CornersOfTriangles(*fewer[1].surface);
+  for (const auto & triangle : CornersOfTriangles(*fewer[2].surface))
+  {
+    EXPECT_EQ(first.count(triangle) + second.count(triangle), 1); // the same walls from both sides
+  }
+}
+
 TEST(LabelSurfaces, InFewerTrianglesStayClosedWhereWallsMeet)
 {
   std::mt19937 random(37);
@@ -1021,11 +1081,7 @@ TEST(LabelSurfaces, InFewerTrianglesStayClosedWhereWallsMeet)
       {},
       {});
     rhombic::ExtractSurfaces(mesh);
-    std::vector<rhombic::SceneSurface> surfaces;
-    for (const LabelSurface & label : mesh.labels)
-    {
-      surfaces.push_back(label.scene);
-    }
+    const std::vector<rhombic::SceneSurface> surfaces = ScenesOf(mesh);
     constexpr double distance = 0.2;
     const auto fewer = rhombic::InFewerTriangles(surfaces, distance);
     std::size_t all = 0;
