@@ -21,7 +21,7 @@ target_include_directories(rhombic-unpack-dicom PRIVATE "${folder}/src/dicom")
 rhombic_add_helper(rhombic-unpack-gzip FOR ScanIO SOURCES "${folder}/helper/rhombicUnpackGzip.cxx" LINKS ZLIB::ZLIB)
 
 rhombic_add_helper(rhombic-unpack-picture FOR ScanIO SOURCES "${folder}/helper/rhombicUnpackPicture.cxx"
-                   LINKS OpenImageIO::OpenImageIO nlohmann_json::nlohmann_json)
+                   LINKS OpenImageIO::OpenImageIO ITKExpat nlohmann_json::nlohmann_json)
 
 # An object of its own, which the linker leaves out of programs that write no DICOM, and with it GDCM, whose dictionaries
 # take 0.04 s to load.

@@ -8,8 +8,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
+
+#include <expat.h>
 
 namespace rhombic
 {
@@ -101,26 +104,6 @@ struct PageDescription
   std::array<double, 3> voxel{};      ///< by OME-XML, in mm along x, y and z; 0 where it is not told
 };
 
-/** The value of an attribute in the start tag of an XML element; empty without it. */
-inline std::string
-AttributeOf(const std::string & tag, const std::string & name)
-{
-  constexpr char blanks[] = " \t\r\n";
-  for (auto place = tag.find(name); place != std::string::npos; place = tag.find(name, place + 1))
-  {
-    const auto equals = tag.find_first_not_of(blanks, place + name.size());
-    if (place == 0 || std::string(blanks).find(tag[place - 1]) == std::string::npos || equals == std::string::npos ||
-        tag[equals] != '=')
-    {
-      continue; // the end of another name, or its beginning
-    }
-    const auto quote = tag.find_first_of("\"'", equals);
-    const auto end = quote == std::string::npos ? quote : tag.find(tag[quote], quote + 1);
-    return end == std::string::npos ? "" : tag.substr(quote + 1, end - quote - 1);
-  }
-  return "";
-}
-
 /** The number that is all of a text; 0 for others. */
 template <typename TNumber>
 TNumber
@@ -133,18 +116,40 @@ NumberIn(const std::string & text)
 
 /** Millimetres of OME's unit of length, which are micrometres if none is written; 0 for pixels and other units. */
 inline double
-MillimetresOfOME(std::string unit)
+MillimetresOfOME(const std::string & unit)
 {
-  static const std::map<std::string, double> units{ { "", 1e-3 },   { "um", 1e-3 }, { "\xC2\xB5m", 1e-3 },
-                                                    { "nm", 1e-6 }, { "mm", 1.0 },  { "\xCE\xBCm", 1e-3 },
-                                                    { "pm", 1e-9 }, { "cm", 10.0 }, { "\xB5m", 1e-3 },
-                                                    { "m", 1e3 },   { "in", 25.4 }, { "\xC3\x85", 1e-7 } };
-  for (const std::string micro : { "&#181;", "&#xB5;", "&#xb5;", "&#956;", "&#x3BC;", "&#x3bc;" })
-  {
-    unit = unit.rfind(micro, 0) == 0 ? 'u' + unit.substr(micro.size()) : unit;
-  }
+  static const std::map<std::string, double> units{ { "", 1e-3 },   { "um", 1e-3 },      { "\xC2\xB5m", 1e-3 },
+                                                    { "nm", 1e-6 }, { "mm", 1.0 },       { "\xCE\xBCm", 1e-3 },
+                                                    { "pm", 1e-9 }, { "cm", 10.0 },      { "m", 1e3 },
+                                                    { "in", 25.4 }, { "\xC3\x85", 1e-7 } };
   const auto found = units.find(unit);
   return found == units.end() ? 0.0 : found->second;
+}
+
+/** The attributes of the first element Pixels of OME-XML, by their names; none for other texts. */
+inline std::map<std::string, std::string>
+FindPixelsOfOME(const std::string & text)
+{
+  std::map<std::string, std::string> found;
+  if (text.find("OME") == std::string::npos)
+  {
+    return found;
+  }
+  const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(XML_ParserCreate(nullptr), &XML_ParserFree);
+  XML_SetUserData(parser.get(), &found);
+  XML_SetStartElementHandler(parser.get(), [](void * data, const char * name, const char ** attributes) {
+    auto & pixels = *static_cast<std::map<std::string, std::string> *>(data);
+    const std::string element = name;
+    if (pixels.empty() && element.substr(element.find(':') + 1) == "Pixels") // with or without a prefix
+    {
+      for (; *attributes != nullptr; attributes += 2)
+      {
+        pixels.emplace(attributes[0], attributes[1]);
+      }
+    }
+  });
+  const bool isWhole = XML_Parse(parser.get(), text.data(), static_cast<int>(text.size()), XML_TRUE) == XML_STATUS_OK;
+  return isWhole ? found : std::map<std::string, std::string>();
 }
 
 /** Reads the first element Pixels of OME-XML, or the number of pictures that ImageJ writes. */
@@ -157,27 +162,16 @@ ReadPageDescription(const std::string & text)
     const auto place = text.find("\nimages=");
     const auto begin = place == std::string::npos ? text.size() : place + 8;
     described.announced = NumberIn<std::size_t>(text.substr(begin, text.find_first_of("\r\n", begin) - begin));
+    return described;
   }
-  auto place = text.find("Pixels ");
-  while (place != std::string::npos && (place == 0 || (text[place - 1] != '<' && text[place - 1] != ':')))
+  std::map<std::string, std::string> pixels = FindPixelsOfOME(text);
+  const char axes[] = "XYZ", counts[] = "ZCT";
+  for (std::size_t n = 0; n < 3; ++n)
   {
-    place = text.find("Pixels ", place + 1);
-  }
-  if (text.find("<OME") == std::string::npos && text.find("OME:OME") == std::string::npos)
-  {
-    place = std::string::npos;
-  }
-  if (place != std::string::npos)
-  {
-    const std::string tag = text.substr(place, text.find('>', place) - place);
-    const char axes[] = "XYZ", counts[] = "ZCT";
-    for (std::size_t n = 0; n < 3; ++n)
-    {
-      const std::string name = std::string("PhysicalSize") + axes[n];
-      const double size = NumberIn<double>(AttributeOf(tag, name)) * MillimetresOfOME(AttributeOf(tag, name + "Unit"));
-      described.voxel[n] = size > 0.0 && std::isfinite(size) ? size : 0.0;
-      described.sizes[n] = NumberIn<std::size_t>(AttributeOf(tag, std::string("Size") + counts[n]));
-    }
+    const std::string name = std::string("PhysicalSize") + axes[n];
+    const double size = NumberIn<double>(pixels[name]) * MillimetresOfOME(pixels[name + "Unit"]);
+    described.voxel[n] = size > 0.0 && std::isfinite(size) ? size : 0.0;
+    described.sizes[n] = NumberIn<std::size_t>(pixels[std::string("Size") + counts[n]]);
   }
   return described;
 }
