@@ -35,7 +35,7 @@ public:
 
   /** Draws a scene from each view; the triangles are uploaded once. Surfaces without triangles are skipped, surfaces
    * without normals are drawn faceted. Of translucent surfaces only the near walls are drawn, more opaque at their
-   * outlines. Translucent surfaces and planes are sorted by depth in each sample, up to 16 behind each other.
+   * outlines. Translucent surfaces and planes are sorted by depth in each sample, up to 32 behind each other.
    *
    * Throws Failure: Empty when no surface has a triangle and there is no plane; Usage for a setting, colour, opacity,
    * cut or plane out of range; Memory when EstimateMemory() is more than the settings allow (before any work), or when

@@ -7,13 +7,14 @@ class vtkRhombicOpaquePass;
 
 /**
  * @class vtkRhombicTranslucentPass
- * @brief Draws translucent surfaces, sorted by depth in each sample, up to 16 behind each other.
+ * @brief Draws translucent surfaces, sorted by depth in each sample, up to 32 behind each other.
  *
  * This pass draws translucent actors of the kinds that vtkRhombicOpaquePass draws, and unlit translucent actors with a
  * texture of bytes, as pictures that stand in the scene. The surfaces are hidden by everything opaque that the
  * framebuffer holds in front of them, whoever has drawn it. All other translucent props are drawn by OtherPass, after
  * the surfaces, so they lie over them. A volume inside a translucent surface can't be ordered: draw it with
- * vtkVolumetricPass afterwards, and it lies over the surface.
+ * vtkVolumetricPass afterwards, and it lies over the surface. OpenGL 4.3 is needed, which Mesa's software has, too; in
+ * older contexts Render() reports an error of VTK and draws OtherPass alone.
  *
  * With lights of the renderer, surfaces are blended as VTK blends them. With the lights that go with the camera, only
  * the near walls of surfaces are drawn, and opacity follows the angle between wall and viewer: it is low where the wall

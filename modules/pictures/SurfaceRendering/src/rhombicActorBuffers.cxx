@@ -328,7 +328,7 @@ ActorBuffers::ReadyProgram(const SurfaceProgram & program)
 }
 
 void
-ActorBuffers::SetUniforms(const Drawing & drawing, vtkTextureObject * depthBefore, vtkShaderProgram * program) const
+ActorBuffers::SetUniforms(const Drawing & drawing, const FragmentLists * lists, vtkShaderProgram * program) const
 {
   const ActorMatrices & matrices = drawing.matrices;
   program->SetUniform3f("centre", matrices.centre.data());
@@ -341,9 +341,10 @@ ActorBuffers::SetUniforms(const Drawing & drawing, vtkTextureObject * depthBefor
   double units = 0.0;
   drawing.actor->GetMapper()->GetRelativeCoincidentTopologyPolygonOffsetParameters(factor, units);
   program->SetUniformf("backward", BackwardStep * static_cast<float>(units));
-  if (depthBefore)
+  if (lists)
   {
-    program->SetUniformi("depthBefore", depthBefore->GetTextureUnit());
+    lists->SetUniforms(program);
+    program->SetUniformi("actor", static_cast<int>(drawing.number));
   }
   const auto equations = EquationsOf(drawing.actor->GetMapper()->GetClippingPlanes(), matrices.worldFromCentred);
   if (!equations.empty())
@@ -400,14 +401,14 @@ ActorBuffers::SetUniforms(const Drawing & drawing, vtkTextureObject * depthBefor
 }
 
 void
-ActorBuffers::DrawCells(const Drawing & drawing, const OpenTiles & open)
+ActorBuffers::DrawCells(const Drawing & drawing, const PicturePart & part)
 {
   // The nearest first, so that fewer samples are computed that others hide later.
   std::array<std::vector<const TriangleCell *>, 64> slabs;
   for (const TriangleCell & cell : drawing.buffers->cells)
   {
     const itk::PointBox footprint = FootprintOf(cell.box, drawing.matrices);
-    if (open.MayShow(footprint))
+    if (part.Meets(footprint))
     {
       const auto last = static_cast<float>(slabs.size() - 1);
       slabs[static_cast<std::size_t>(std::clamp(footprint.lowest[2], 0.0f, 1.0f) * last)].push_back(&cell);
@@ -459,7 +460,7 @@ ActorBuffers::BindArrays(const Drawing & drawing, vtkShaderProgram * program)
 }
 
 void
-ActorBuffers::Draw(const Drawing & drawing, vtkTextureObject * depthBefore, const OpenTiles & open)
+ActorBuffers::Draw(const Drawing & drawing, const FragmentLists * lists, const PicturePart & part)
 {
   vtkShaderProgram * const program = ReadyProgram(drawing.program);
   if (!program)
@@ -471,7 +472,7 @@ ActorBuffers::Draw(const Drawing & drawing, vtkTextureObject * depthBefore, cons
   {
     buffers.picture->Activate();
   }
-  SetUniforms(drawing, depthBefore, program);
+  SetUniforms(drawing, lists, program);
   vtkOpenGLState * const state = m_Window->GetState();
   state->SetEnumState(GL_CULL_FACE, drawing.hidesBacks || drawing.hidesFronts);
   state->vtkglCullFace(drawing.hidesBacks ? GL_BACK : GL_FRONT);
@@ -485,7 +486,7 @@ ActorBuffers::Draw(const Drawing & drawing, vtkTextureObject * depthBefore, cons
   setCuts(glEnable);
   BindArrays(drawing, program);
   buffers.indices->Bind();
-  DrawCells(drawing, open);
+  DrawCells(drawing, part);
   buffers.indices->Release();
   buffers.arrays->Release();
   setCuts(glDisable);
@@ -509,13 +510,13 @@ ActorBuffers::DrawOpaque()
 }
 
 void
-ActorBuffers::DrawTranslucent(vtkTextureObject * depthBefore, const OpenTiles & open)
+ActorBuffers::DrawTranslucent(const FragmentLists & lists, const PicturePart & part)
 {
   for (const Drawing & drawing : m_Drawings)
   {
     if (drawing.program.isTranslucent)
     {
-      Draw(drawing, depthBefore, open);
+      Draw(drawing, &lists, part);
     }
   }
 }

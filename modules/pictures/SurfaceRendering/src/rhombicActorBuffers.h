@@ -2,6 +2,7 @@
 #define rhombicActorBuffers_h
 
 #include "rhombicCameraMatrices.h"
+#include "rhombicFragmentLists.h"
 #include "rhombicShaders.h"
 #include "rhombicTriangleCells.h"
 
@@ -59,10 +60,9 @@ public:
   void
   DrawOpaque();
 
-  /** Draws the parts of translucent actors that are behind a depth.
-   * \param open where a layer can be seen */
+  /** Adds the fragments of translucent actors in a part of the picture to the part's lists. */
   void
-  DrawTranslucent(vtkTextureObject * depthBefore, const OpenTiles & open);
+  DrawTranslucent(const FragmentLists & lists, const PicturePart & part);
 
   /** The mean length of the actors' edges, 0 without triangles, and the mean side of the box around the actors, in the
    * unit of the scene. Pictures do not count. */
@@ -137,11 +137,11 @@ private:
   static void
   BindArrays(const Drawing & drawing, vtkShaderProgram * program);
   void
-  Draw(const Drawing & drawing, vtkTextureObject * depthBefore, const OpenTiles & open);
+  Draw(const Drawing & drawing, const FragmentLists * lists, const PicturePart & part);
   void
-  SetUniforms(const Drawing & drawing, vtkTextureObject * depthBefore, vtkShaderProgram * program) const;
+  SetUniforms(const Drawing & drawing, const FragmentLists * lists, vtkShaderProgram * program) const;
   static void
-  DrawCells(const Drawing & drawing, const OpenTiles & open);
+  DrawCells(const Drawing & drawing, const PicturePart & part);
 
   std::map<vtkActor *, Buffers> m_Buffers;
   std::vector<Drawing> m_Drawings;

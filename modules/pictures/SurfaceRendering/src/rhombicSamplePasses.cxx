@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace rhombic
@@ -23,7 +24,8 @@ constexpr double PixelsPerOutlineWidth = 1000.0; // of the picture's shorter sid
 
 constexpr int PairsOfOneSize = 6; // of points, in each of two balls
 constexpr double SmallBall = 0.25;
-constexpr int MostLayers = 16;
+
+constexpr std::size_t FragmentsOfSample = 2; // expected where little is known
 
 /** Points in the unit disc along a spiral, for a large and a small ball. */
 std::vector<float>
@@ -119,6 +121,7 @@ public:
     , m_DepthFunc(state)
     , m_ClearColour(state)
     , m_Viewport(state)
+    , m_ScissorBox(state)
     , m_BlendFunc(state)
   {
     state->SetEnumState(GL_SCISSOR_TEST, false);
@@ -136,6 +139,7 @@ private:
   vtkOpenGLState::ScopedglDepthFunc m_DepthFunc;
   vtkOpenGLState::ScopedglClearColor m_ClearColour;
   vtkOpenGLState::ScopedglViewport m_Viewport;
+  vtkOpenGLState::ScopedglScissor m_ScissorBox;
   vtkOpenGLState::ScopedglBlendFuncSeparate m_BlendFunc;
 };
 
@@ -174,10 +178,28 @@ MakeDepthsOfFramebuffer(int width, int height, vtkOpenGLRenderWindow * window)
   return texture;
 }
 
-int
-TilesAlong(int samples)
+std::size_t
+SamplesOf(const Viewport & part)
 {
-  return (samples + OpenTiles::Side - 1) / OpenTiles::Side;
+  return static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.height);
+}
+
+/** Parts whose lists hold a number of fragments, if the parts have equally many. */
+std::vector<Viewport>
+Split(const Viewport & whole, std::size_t fragments)
+{
+  const bool isWide = whole.width > whole.height;
+  const int side = isWide ? whole.width : whole.height;
+  const auto count =
+    static_cast<int>(std::min(fragments / FragmentLists::Capacity + 1, static_cast<std::size_t>(side)));
+  std::vector<Viewport> parts;
+  for (int n = 0, begin = 0, end = 0; n < count; ++n, begin = end)
+  {
+    end = static_cast<int>(std::int64_t{ side } * (n + 1) / count);
+    parts.push_back(isWide ? Viewport{ whole.x + begin, whole.y, end - begin, whole.height }
+                           : Viewport{ whole.x, whole.y + begin, whole.width, end - begin });
+  }
+  return parts;
 }
 
 } // namespace
@@ -299,12 +321,7 @@ SamplePasses::AllocateLayers()
   const auto & [x, y, width, height] = m_Viewport;
   const int columns = width * m_Settings.samples;
   const int rows = height * m_Settings.samples;
-  m_Layer = MakeColours(columns, rows, 4, VTK_UNSIGNED_CHAR, GL_RGBA8, m_Window);
-  m_LayerDepths = MakeDepths(columns, rows, m_Window);
-  m_DepthsBefore = MakeDepths(columns, rows, m_Window);
   m_Layers = MakeColours(columns, rows, 4, VTK_FLOAT, GL_RGBA16F, m_Window);
-  m_Tiles = MakeColours(TilesAlong(columns), TilesAlong(rows), 1, VTK_FLOAT, GL_R32F, m_Window);
-  m_TilesBefore = MakeColours(TilesAlong(columns), TilesAlong(rows), 1, VTK_FLOAT, GL_R32F, m_Window);
   m_Now = MakeColours(width, height, 4, VTK_UNSIGNED_CHAR, GL_RGBA8, m_Window);
   m_NowDepths = MakeDepthsOfFramebuffer(width, height, m_Window);
 }
@@ -337,7 +354,7 @@ SamplePasses::TakeDepths()
 {
   SetTarget(m_Colours, m_Depths);
   m_Window->GetState()->vtkglDepthFunc(GL_ALWAYS);
-  Run(FragmentShader(NoLayerFragment, { { "SAMPLES", m_Settings.samples } }),
+  Run(FragmentShader(NoSurfaceFragment, { { "SAMPLES", m_Settings.samples } }),
       { { "depths", m_BehindDepths } },
       [](vtkShaderProgram *) {});
   m_Window->GetState()->vtkglDepthFunc(GL_LESS);
@@ -388,34 +405,13 @@ SamplePasses::Run(const std::string & fragmentShader,
     return; // VTK has reported an error
   }
   setUniforms(program);
-  RunProgram(program, inputs, 3);
-}
-
-void
-SamplePasses::RunInOpenTiles(const std::string & fragmentShader, const Input & input)
-{
-  vtkShaderProgram * const program =
-    m_Window->GetShaderCache()->ReadyShaderProgram(VertexShader(OpenTilesVertex).c_str(), fragmentShader.c_str(), "");
-  if (!program)
-  {
-    return; // VTK has reported an error
-  }
-  const std::array<int, 2> size{ m_Viewport.width * m_Settings.samples, m_Viewport.height * m_Settings.samples };
-  program->SetUniform2i("size", size.data());
-  const auto tiles = m_TilesBefore->GetWidth() * m_TilesBefore->GetHeight();
-  RunProgram(program, { input, { "tiles", m_TilesBefore } }, static_cast<int>(6 * tiles));
-}
-
-void
-SamplePasses::RunProgram(vtkShaderProgram * program, const std::vector<Input> & inputs, int vertices)
-{
   for (const Input & input : inputs)
   {
     input.texture->Activate();
     program->SetUniformi(input.name, input.texture->GetTextureUnit());
   }
   m_NoArrays->Bind();
-  glDrawArrays(GL_TRIANGLES, 0, vertices);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
   m_NoArrays->Release();
   for (const Input & input : inputs)
   {
@@ -460,48 +456,47 @@ SamplePasses::DrawShades(const CameraMatrices & camera)
 void
 SamplePasses::DrawLayers(ActorBuffers & actors)
 {
-  vtkOpenGLState * const state = m_Window->GetState();
-  SetTarget(m_Layers, m_DepthsBefore);
-  state->vtkglClearDepth(0.0); // everything is behind
-  state->vtkglClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  SetTarget(m_TilesBefore); // all are open
-  state->vtkglClear(GL_COLOR_BUFFER_BIT);
-  OpenTiles open;
-  for (int layer = 0; layer < MostLayers && !open.AllAreClosed(); ++layer)
+  SetTarget(m_Layers);
+  m_Window->GetState()->vtkglClear(GL_COLOR_BUFFER_BIT);
+  m_Window->GetState()->SetEnumState(GL_SCISSOR_TEST, true);
+  const Viewport whole{ 0, 0, static_cast<int>(m_Layers->GetWidth()), static_cast<int>(m_Layers->GetHeight()) };
+  DrawParts(actors, whole, FragmentsOfSample * SamplesOf(whole));
+  m_Window->GetState()->SetEnumState(GL_SCISSOR_TEST, false);
+}
+
+void
+SamplePasses::DrawParts(ActorBuffers & actors, const Viewport & whole, std::size_t expectedFragments)
+{
+  for (const Viewport & part : Split(whole, expectedFragments))
   {
-    SetTarget(m_Layer, m_LayerDepths);
-    state->vtkglDepthFunc(GL_ALWAYS);
-    RunInOpenTiles(FragmentShader(NoLayerFragment, { { "SAMPLES", 1 } }), { "depths", m_Depths });
-    state->vtkglDepthFunc(GL_LESS);
-    m_DepthsBefore->Activate();
-    actors.DrawTranslucent(m_DepthsBefore, open);
-    m_DepthsBefore->Deactivate();
+    m_Window->GetState()->vtkglScissor(part.x, part.y, part.width, part.height);
+    FillLists(actors, part);
+    const std::size_t fragments = m_Lists.NumberOfFragments();
+    if (fragments > FragmentLists::Capacity && SamplesOf(part) > 1)
+    {
+      DrawParts(actors, part, fragments);
+      continue;
+    }
     SetTarget(m_Layers);
-    state->SetEnumState(GL_BLEND, true);
-    state->vtkglBlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
-    RunInOpenTiles(FragmentShader(LayerFragment), { "layer", m_Layer });
-    open = FindOpenTiles();
-    std::swap(m_LayerDepths, m_DepthsBefore);
-    std::swap(m_Tiles, m_TilesBefore);
+    Run(ListShader(BlendFragmentsText), {}, [this](vtkShaderProgram * program) { m_Lists.SetUniforms(program); });
   }
 }
 
-OpenTiles
-SamplePasses::FindOpenTiles()
+void
+SamplePasses::FillLists(ActorBuffers & actors, const Viewport & part)
 {
-  SetTarget(m_Tiles);
-  Run(FragmentShader(OpenTileFragment),
-      { { "depths", m_Depths }, { "layerDepths", m_LayerDepths }, { "tiles", m_TilesBefore } },
-      [](vtkShaderProgram *) {});
-  OpenTiles open;
-  open.columns = static_cast<int>(m_Tiles->GetWidth());
-  open.rows = static_cast<int>(m_Tiles->GetHeight());
-  open.width = static_cast<double>(m_Viewport.width) * m_Settings.samples / OpenTiles::Side;
-  open.height = static_cast<double>(m_Viewport.height) * m_Settings.samples / OpenTiles::Side;
-  open.depths.resize(static_cast<std::size_t>(open.columns) * static_cast<std::size_t>(open.rows));
-  glReadBuffer(GL_COLOR_ATTACHMENT0);
-  glReadPixels(0, 0, open.columns, open.rows, GL_RED, GL_FLOAT, open.depths.data());
-  return open;
+  SetTarget(m_Layers, m_Depths);
+  m_Window->GetState()->vtkglDepthMask(GL_FALSE);
+  m_Window->GetState()->vtkglColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  m_Lists.Begin(part);
+  const auto width = static_cast<float>(m_Layers->GetWidth());
+  const auto height = static_cast<float>(m_Layers->GetHeight());
+  actors.DrawTranslucent(m_Lists,
+                         { static_cast<float>(part.x) / width,
+                           static_cast<float>(part.y) / height,
+                           static_cast<float>(part.x + part.width) / width,
+                           static_cast<float>(part.y + part.height) / height });
+  m_Window->GetState()->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
 void
@@ -518,7 +513,13 @@ SamplePasses::DrawPixels(bool hasLayers, bool hasChanges)
   const bool hasRelief = HasShades() && (!hasLayers || hasChanges);
   std::vector<Input> inputs{ { "colours", m_Colours }, { "behind", m_Behind } };
   const auto addIf = [&inputs](bool condition, std::initializer_list<Input> more) {
-    inputs.insert(inputs.end(), condition ? more.begin() : more.end(), more.end());
+    for (const Input & input : more)
+    {
+      if (condition)
+      {
+        inputs.push_back(input);
+      }
+    }
   };
   addIf(!hasLayers, { { "depths", m_Depths } });
   addIf(hasLayers, { { "layers", m_Layers } });

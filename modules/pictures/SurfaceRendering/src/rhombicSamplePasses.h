@@ -2,6 +2,7 @@
 #define rhombicSamplePasses_h
 
 #include "rhombicActorBuffers.h"
+#include "rhombicFragmentLists.h"
 
 #include <vtkOpenGLFramebufferObject.h>
 
@@ -30,21 +31,6 @@ struct SampleSettings
   bool silhouettes = true;
   bool straightAlpha = false;                   ///< pixels are not multiplied by alpha
   std::array<float, 2> strengths{ 1.0f, 0.8f }; ///< of ambient occlusion and silhouettes
-};
-
-/** The part of the current framebuffer that is drawn to, in pixels from the lower left. */
-struct Viewport
-{
-  int x = 0;
-  int y = 0;
-  int width = 0;
-  int height = 0;
-
-  bool
-  operator==(const Viewport & other) const
-  {
-    return x == other.x && y == other.y && width == other.width && height == other.height;
-  }
 };
 
 /** \class SamplePasses
@@ -101,8 +87,10 @@ private:
   DrawShades(const CameraMatrices & camera);
   void
   DrawLayers(ActorBuffers & actors);
-  OpenTiles
-  FindOpenTiles();
+  void
+  DrawParts(ActorBuffers & actors, const Viewport & whole, std::size_t expectedFragments);
+  void
+  FillLists(ActorBuffers & actors, const Viewport & part);
   void
   DrawPixels(bool hasLayers, bool hasChanges);
 
@@ -118,13 +106,6 @@ private:
   void
   Run(const std::string & fragmentShader, const std::vector<Input> & inputs, const TSetUniforms & setUniforms);
 
-  /** Runs a fragment program for each sample in tiles that were open before. */
-  void
-  RunInOpenTiles(const std::string & fragmentShader, const Input & input);
-
-  void
-  RunProgram(vtkShaderProgram * program, const std::vector<Input> & inputs, int vertices);
-
   SampleSettings m_Settings;
   Viewport m_Viewport;
   OcclusionLengths m_Lengths;
@@ -134,16 +115,12 @@ private:
   vtkSmartPointer<vtkOpenGLFramebufferObject> m_CopyTarget;
   vtkSmartPointer<vtkOpenGLVertexArrayObject> m_NoArrays;
 
+  FragmentLists m_Lists; ///< of a part of the samples
+
   // For each sample:
   Texture m_Colours; ///< of opaque surfaces
   Texture m_Depths;
-  Texture m_Layer; ///< one translucent layer
-  Texture m_LayerDepths;
-  Texture m_DepthsBefore; ///< of the layer before
-  Texture m_Layers;       ///< all translucent layers so far, multiplied by alpha
-  // For each tile of samples:
-  Texture m_Tiles; ///< as OpenTiles
-  Texture m_TilesBefore;
+  Texture m_Layers; ///< of translucent surfaces, multiplied by alpha
   // For each pixel:
   Texture m_Relief;
   Texture m_Shades;

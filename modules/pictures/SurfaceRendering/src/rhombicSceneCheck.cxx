@@ -137,9 +137,10 @@ CheckPlane(const ScenePlane & plane)
 
 constexpr std::uintmax_t LibraryBytes = 110 << 20; // graphics libraries and compiled shaders
 
-constexpr std::uintmax_t SampleBytes = 8;       // colour and depth
-constexpr std::uintmax_t LayerSampleBytes = 20; // colours of a layer and of all, two depths
-constexpr std::uintmax_t LayerPixelBytes = 8;   // colour and depth below the layers
+constexpr std::uintmax_t SampleBytes = 8;      // colour and depth
+constexpr std::uintmax_t LayerSampleBytes = 8; // colour of all layers
+constexpr std::uintmax_t ListBytes = 72 << 20; // lists of fragments, at most
+constexpr std::uintmax_t LayerPixelBytes = 8;  // colour and depth below the layers
 // The window's buffers 28, what is behind the surfaces 12, relief and shades 12, the picture and VTK's copy of it 8.
 constexpr std::uintmax_t PixelBytes = 60;
 
@@ -167,6 +168,13 @@ BytesOfPixel(const RenderSettings & settings, bool isTranslucent)
   const std::uintmax_t sample = SampleBytes + (isTranslucent ? LayerSampleBytes : 0);
   return static_cast<std::uintmax_t>(settings.samples * settings.samples) * sample + PixelBytes +
          (isTranslucent ? LayerPixelBytes : 0);
+}
+
+/** What does not depend on the scene or the size. */
+std::uintmax_t
+FixedBytes(bool isTranslucent)
+{
+  return LibraryBytes + (isTranslucent ? ListBytes : 0);
 }
 
 /** Advice to draw a smaller picture of the same shape that needs at most \a bytes; empty when there is none. */
@@ -285,7 +293,7 @@ std::uintmax_t
 MemoryToDraw(const RenderSettings & settings, bool isTranslucent, std::uintmax_t sceneBytes)
 {
   const RenderSettings sized = WithSize(settings);
-  return LibraryBytes + sceneBytes +
+  return FixedBytes(isTranslucent) + sceneBytes +
          static_cast<std::uintmax_t>(sized.width) * static_cast<std::uintmax_t>(sized.height) *
            BytesOfPixel(sized, isTranslucent);
 }
@@ -294,8 +302,8 @@ void
 RequireMemoryToDraw(const RenderSettings & settings, bool isTranslucent, std::uintmax_t sceneBytes)
 {
   const RenderSettings sized = WithSize(settings);
-  const auto left =
-    static_cast<double>(MemoryAllowance(sized.maximumMemory)) - static_cast<double>(LibraryBytes + sceneBytes);
+  const auto left = static_cast<double>(MemoryAllowance(sized.maximumMemory)) -
+                    static_cast<double>(FixedBytes(isTranslucent) + sceneBytes);
   RequireMemory(MemoryToDraw(sized, isTranslucent, sceneBytes),
                 sized.maximumMemory,
                 "A picture of " + std::to_string(sized.width) + " x " + std::to_string(sized.height) + " pixels",

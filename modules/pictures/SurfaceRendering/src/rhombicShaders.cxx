@@ -1,6 +1,6 @@
 #include "rhombicShaders.h"
 
-#include "rhombicTriangleCells.h"
+#include "rhombicFragmentLists.h"
 
 namespace rhombic
 {
@@ -91,18 +91,9 @@ in vec4 mappedColour;
 #endif
 uniform float handedness;
 uniform vec4 colours[2]; // of fronts and backs; opaque: alpha is the surface's number
-#if TRANSLUCENT
-uniform sampler2D depthBefore;
-#endif
 
 void main()
 {
-#if TRANSLUCENT
-  if (gl_FragCoord.z <= texelFetch(depthBefore, ivec2(gl_FragCoord.xy), 0).r + 1e-6)
-  {
-    discard;
-  }
-#endif
   int side = gl_FrontFacing ? 0 : 1;
 #if SMOOTH
   vec3 normal = normalize(direction);
@@ -118,7 +109,7 @@ void main()
 #endif
 #endif
 #if LIGHTS
-  gl_FragData[0] = vec4(LitByRenderer(colour.rgb, normal, side), colour.a);
+  colour.rgb = LitByRenderer(colour.rgb, normal, side);
 #else
 #if TRANSLUCENT
   // See vtkRhombicTranslucentPass.
@@ -127,7 +118,12 @@ void main()
   float facing = max(0.5 * least, 1.2 * least - 0.2);
   colour.a *= mix(pow(1.0 - min(abs(normal.z), 1.0), exponent), 1.0, facing) / least;
 #endif
-  gl_FragData[0] = vec4(Lit(gl_FrontFacing ? colour.rgb : 0.85 * colour.rgb, normal), colour.a);
+  colour.rgb = Lit(gl_FrontFacing ? colour.rgb : 0.85 * colour.rgb, normal);
+#endif
+#if TRANSLUCENT
+  AddFragment(colour);
+#else
+  gl_FragData[0] = colour;
 #endif
 }
 )";
@@ -190,7 +186,6 @@ constexpr const char * PictureFragment = R"(
 in vec2 texturePlace;
 uniform float opacity;
 uniform sampler2D picture;
-uniform sampler2D depthBefore;
 
 vec4 Texel(ivec2 at)
 {
@@ -201,10 +196,6 @@ vec4 Texel(ivec2 at)
 // The bilinear mean, in which transparent pixels do not count for the colour.
 void main()
 {
-  if (gl_FragCoord.z <= texelFetch(depthBefore, ivec2(gl_FragCoord.xy), 0).r + 1e-6)
-  {
-    discard;
-  }
   vec2 position = texturePlace * vec2(textureSize(picture, 0)) - 0.5;
   ivec2 at = ivec2(floor(position));
   vec2 share = position - vec2(at);
@@ -215,7 +206,7 @@ void main()
   {
     discard;
   }
-  gl_FragData[0] = vec4(mean.rgb / mean.a, opacity * mean.a);
+  AddFragment(vec4(mean.rgb / mean.a, opacity * mean.a));
 }
 )";
 
@@ -230,17 +221,22 @@ DefinesOf(const SurfaceProgram & program)
            { "CUTS", program.cuts } };
 }
 
-} // namespace
+// VTK replaces these comments.
+constexpr const char * VersionOfVTK = "//VTK::System::Dec\n";
+const std::string OutputOfVTK = "//VTK::Output::Dec\n";
 
-const char * const LayerFragment = R"(
-uniform sampler2D layer;
-
-void main()
+std::string
+WholeProgram(const std::string & begin, const std::string & text, const ShaderDefines & defines)
 {
-  vec4 colour = texelFetch(layer, ivec2(gl_FragCoord.xy), 0);
-  gl_FragData[0] = vec4(colour.rgb * colour.a, colour.a);
+  std::string program = begin;
+  for (const auto & [name, value] : defines)
+  {
+    program += "#define " + name + ' ' + std::to_string(value) + '\n';
+  }
+  return program + text;
 }
-)";
+
+} // namespace
 
 const char * const WholeTargetVertex = R"(
 void main()
@@ -249,23 +245,7 @@ void main()
 }
 )";
 
-const char * const OpenTilesVertex = R"(
-uniform sampler2D tiles;
-uniform ivec2 size; // of the target in samples
-
-void main()
-{
-  int columns = textureSize(tiles, 0).x;
-  ivec2 tile = ivec2(gl_VertexID / 6 % columns, gl_VertexID / 6 / columns);
-  int corner = gl_VertexID % 6;
-  ivec2 end = ivec2(corner == 1 || corner == 2 || corner == 4 ? 1 : 0, corner == 2 || corner == 4 || corner == 5 ? 1 : 0);
-  vec2 at = vec2(min((tile + end) * SIDE, size)) / vec2(size);
-  bool isOpen = texelFetch(tiles, tile, 0).r < float(CLOSED);
-  gl_Position = isOpen ? vec4(2.0 * at - 1.0, 0.0, 1.0) : vec4(0.0, 0.0, 0.0, 1.0);
-}
-)";
-
-const char * const NoLayerFragment = R"(
+const char * const NoSurfaceFragment = R"(
 uniform sampler2D depths;
 
 void main()
@@ -289,33 +269,6 @@ void main()
   }
   gl_FragData[0] = vec4(0.0);
   gl_FragDepth = depth;
-}
-)";
-
-const char * const OpenTileFragment = R"(
-uniform sampler2D depths;
-uniform sampler2D layerDepths;
-uniform sampler2D tiles; // before this layer
-
-void main()
-{
-  if (texelFetch(tiles, ivec2(gl_FragCoord.xy), 0).r == float(CLOSED))
-  {
-    gl_FragData[0] = vec4(float(CLOSED));
-    return;
-  }
-  ivec2 first = ivec2(gl_FragCoord.xy) * SIDE;
-  ivec2 end = min(first + SIDE, textureSize(depths, 0));
-  float least = float(CLOSED);
-  for (int y = first.y; y < end.y; ++y)
-  {
-    for (int x = first.x; x < end.x; ++x)
-    {
-      float layer = texelFetch(layerDepths, ivec2(x, y), 0).r;
-      least = layer < texelFetch(depths, ivec2(x, y), 0).r ? min(least, layer) : least;
-    }
-  }
-  gl_FragData[0] = vec4(least);
 }
 )";
 
@@ -512,19 +465,19 @@ void main()
 std::string
 VertexShader(const std::string & text, const ShaderDefines & defines)
 {
-  std::string shader = "//VTK::System::Dec\n"; // VTK replaces the comment
-  for (const auto & [name, value] : defines)
-  {
-    shader += "#define " + name + ' ' + std::to_string(value) + '\n';
-  }
-  shader += "#define SIDE " + std::to_string(OpenTiles::Side) + "\n#define CLOSED " + std::to_string(OpenTiles::Closed);
-  return shader + text;
+  return WholeProgram(VersionOfVTK, text, defines);
 }
 
 std::string
 FragmentShader(const std::string & text, const ShaderDefines & defines)
 {
-  return VertexShader("\n//VTK::Output::Dec\n" + text, defines);
+  return WholeProgram(VersionOfVTK, OutputOfVTK + text, defines);
+}
+
+std::string
+ListShader(const std::string & text, const ShaderDefines & defines)
+{
+  return WholeProgram("#version 430\n", ListsText + OutputOfVTK + text, defines);
 }
 
 std::string
@@ -537,8 +490,9 @@ std::string
 SurfaceFragmentShader(const SurfaceProgram & program, const RendererLights & lights)
 {
   const std::string light = program.light == SurfaceLight::Own ? LitByOwnLight : RendererLight(lights);
-  return FragmentShader(program.isPicture ? PictureFragment : "in vec3 position;\n" + light + SurfaceFragment,
-                        DefinesOf(program));
+  const std::string text = program.isPicture ? PictureFragment : "in vec3 position;\n" + light + SurfaceFragment;
+  return program.isTranslucent ? ListShader(AddFragmentText + text, DefinesOf(program))
+                               : FragmentShader(text, DefinesOf(program));
 }
 
 } // namespace rhombic

@@ -33,7 +33,7 @@ struct RendererLights
 struct SurfaceProgram
 {
   bool isSmooth = true;       ///< with the normals of points; faceted otherwise
-  bool isTranslucent = false; ///< one layer of peeling
+  bool isTranslucent = false; ///< with FragmentLists
   bool isPicture = false;     ///< an unlit picture, with the points' positions in it
   bool hasColours = false;    ///< of points
   SurfaceLight light = SurfaceLight::Own;
@@ -43,8 +43,8 @@ struct SurfaceProgram
 std::string
 SurfaceVertexShader(const SurfaceProgram & program);
 
-/** The colour of a sample. Opaque: its alpha is the surface's number. Translucent: straight alpha; only samples behind
- * the layer before. */
+/** The colour of a sample. Opaque: its alpha is the surface's number. Translucent: straight alpha, for FragmentLists.
+ */
 std::string
 SurfaceFragmentShader(const SurfaceProgram & program, const RendererLights & lights);
 
@@ -57,25 +57,19 @@ VertexShader(const std::string & text, const ShaderDefines & defines = {});
 std::string
 FragmentShader(const std::string & text, const ShaderDefines & defines = {});
 
+/** A fragment program with the lists of FragmentLists. */
+std::string
+ListShader(const std::string & text, const ShaderDefines & defines = {});
+
 /** A triangle from three vertices without attributes that covers the whole target. */
 extern const char * const WholeTargetVertex;
 
-/** Two triangles over each open tile of OpenTiles, from six vertices without attributes. */
-extern const char * const OpenTilesVertex;
-
-/** A translucent layer without anything, that ends where opaque surfaces are: at depths of pixels or samples, which are
- * SAMPLES for each depth along each side. */
-extern const char * const NoLayerFragment;
+/** Samples without a surface at the depths of pixels, which have SAMPLES along each side. */
+extern const char * const NoSurfaceFragment;
 
 /** Where the depths of pixels have changed since they were written, samples without a surface at the depth that is
  * there now. */
 extern const char * const ChangedFragment;
-
-/** Adds a translucent layer under those before: multiplied by alpha, to be blended. */
-extern const char * const LayerFragment;
-
-/** For each tile, the smallest depth of a layer where it is in front of opaque surfaces and the background. */
-extern const char * const OpenTileFragment;
 
 /** The depth and the surface's number of one sample of each pixel, which has SAMPLES along each side. */
 extern const char * const ReliefFragment;

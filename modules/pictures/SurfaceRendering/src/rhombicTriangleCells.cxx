@@ -73,13 +73,6 @@ MakeCell(const ActorTriangles & actor, const TriangleCells & ordered, std::size_
   return cell;
 }
 
-/** The tile at a position in tiles. */
-int
-TileAt(double position, int count)
-{
-  return static_cast<int>(std::clamp(std::floor(position), 0.0, static_cast<double>(count - 1)));
-}
-
 } // namespace
 
 TriangleCells
@@ -148,33 +141,10 @@ FootprintOf(const itk::PointBox & box, const ActorMatrices & matrices)
 }
 
 bool
-OpenTiles::MayShow(const itk::PointBox & footprint) const
+PicturePart::Meets(const itk::PointBox & footprint) const
 {
-  const auto & [left, bottom, nearest] = footprint.lowest;
-  const auto & [right, top, farthest] = footprint.highest;
-  if (right < 0.0f || left > 1.0f || top < 0.0f || bottom > 1.0f)
-  {
-    return false;
-  }
-  const int lastColumn = TileAt(right * width, columns);
-  const int lastRow = TileAt(top * height, rows);
-  for (int row = TileAt(bottom * height, rows); row <= lastRow; ++row)
-  {
-    for (int column = TileAt(left * width, columns); column <= lastColumn; ++column)
-    {
-      if (depths[static_cast<std::size_t>(row * columns + column)] < farthest)
-      {
-        return true;
-      }
-    }
-  }
-  return false;
-}
-
-bool
-OpenTiles::AllAreClosed() const
-{
-  return std::all_of(depths.begin(), depths.end(), [](float depth) { return depth == Closed; });
+  return footprint.highest[0] >= left && footprint.lowest[0] <= right && footprint.highest[1] >= bottom &&
+         footprint.lowest[1] <= top;
 }
 
 } // namespace rhombic

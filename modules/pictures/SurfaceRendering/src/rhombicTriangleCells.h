@@ -5,7 +5,6 @@
 #include "rhombicActorTriangles.h"
 #include "rhombicCameraMatrices.h"
 
-#include <array>
 #include <vector>
 
 namespace rhombic
@@ -36,25 +35,16 @@ SortIntoCells(const ActorTriangles & actor);
 itk::PointBox
 FootprintOf(const itk::PointBox & box, const ActorMatrices & matrices);
 
-/** \class OpenTiles
- * \brief The depth in each square part of a picture behind which something can still be seen, so that hidden
- * cells of triangles are not drawn. */
-struct OpenTiles
+/** A part of a picture, 0 to 1 from the left and from the bottom. */
+struct PicturePart
 {
-  static constexpr int Side = 16; ///< samples of a tile's width and height
-  static constexpr int Closed = 2;
-
-  int columns = 1;
-  int rows = 1;
-  double width = 1.0; ///< of the picture, in tiles
-  double height = 1.0;
-  std::vector<float> depths{ 0.0f }; ///< from the bottom left; Closed where nothing more can be seen
+  float left = 0.0f;
+  float bottom = 0.0f;
+  float right = 1.0f;
+  float top = 1.0f;
 
   bool
-  MayShow(const itk::PointBox & footprint) const;
-
-  bool
-  AllAreClosed() const;
+  Meets(const itk::PointBox & footprint) const;
 };
 
 } // namespace rhombic

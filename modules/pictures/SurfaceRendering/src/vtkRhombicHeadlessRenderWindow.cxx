@@ -75,7 +75,7 @@ ReleaseCurrentContext()
   }
 }
 
-/** An OpenGL 3.2 core context of EGL. */
+/** An OpenGL 4.3 core context of EGL. */
 struct GLContext
 {
   const EGLDisplay display;
@@ -91,7 +91,7 @@ struct GLContext
       EGL_NONE
     };
     constexpr EGLint contextRules[] = {
-      EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 2, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+      EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
       EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE
     };
     // VTK draws into its own buffers. Not every EGL supports a context without a surface, so there is one of 1 pixel.
@@ -204,9 +204,9 @@ DescribeCurrentContext()
   const auto * const version = reinterpret_cast<const char *>(glGetString(GL_VERSION));
   int major = 0;
   int minor = 0;
-  if (!renderer || !version || std::sscanf(version, "%d.%d", &major, &minor) != 2 || 10 * major + minor < 32)
+  if (!renderer || !version || std::sscanf(version, "%d.%d", &major, &minor) != 2 || 10 * major + minor < 43)
   {
-    Fail(std::string("it has OpenGL \"") + (version ? version : "") + "\", and 3.2 is needed");
+    Fail(std::string("it has OpenGL \"") + (version ? version : "") + "\", and 4.3 is needed");
   }
   return std::string(renderer) + ", OpenGL " + version;
 }

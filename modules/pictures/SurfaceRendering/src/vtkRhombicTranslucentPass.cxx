@@ -44,7 +44,11 @@ vtkRhombicTranslucentPass::Render(const vtkRenderState * state)
     parts.Use(window);
     parts.actors.SetActors(props.surfaces, camera, rhombic::LookOf(this->OpaquePass, renderer));
     this->NumberOfRenderedProps = parts.actors.NumberOf(true);
-    if (this->NumberOfRenderedProps > 0)
+    if (this->NumberOfRenderedProps > 0 && !rhombic::FragmentLists::AreSupported())
+    {
+      vtkErrorMacro("Translucent surfaces need OpenGL 4.3. Draw them opaque, or in a vtkRhombicHeadlessRenderWindow.");
+    }
+    else if (this->NumberOfRenderedProps > 0)
     {
       parts.samples.DrawTranslucent(parts.actors, rhombic::SamplesOf(this->OpaquePass), viewport, window);
     }
