@@ -1,5 +1,7 @@
 #include "rhombicHiding.h"
 
+#include "rhombicForEachBlock.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -294,11 +296,10 @@ FindEnclosing(const Scene & scene)
       isNeeded[front] = isNeeded[behind] = true;
     }
     std::vector<std::vector<float>> depths(count);
-    for (std::size_t n = 0; n < count; ++n)
-    {
+    ForEachOnThreads(count, [&](std::size_t n) {
       depths[n] =
         isNeeded[n] ? FindDepths(scene.surfaces[n], scene.cuts, RaysThrough(box, view.frame)) : std::vector<float>();
-    }
+    });
     const auto isSeen = [&depths](const SurfacePair & pair) {
       return HiddenShare(depths[pair.first], depths[pair.second]) < EnclosedShare;
     };

@@ -59,18 +59,26 @@ DescribeExamination(const Scan & scan, bool isLabelMap)
   return modality + (part.empty() ? "" : " " + part);
 }
 
-/** Measures a finished surface, or the voxels of a label near a part of its map, and adds it. */
+/** Measures finished surfaces, or the voxels of labels near a part of their map. */
 void
-AddSurface(MeshedSurface & surface, PictureScene & scene)
+MeasureSurfaces(std::vector<MeshedSurface> & surfaces, const std::optional<Scan> & scan)
 {
-  if (surface.label && surface.label->isPart)
-  {
-    surface.measures.volume = surface.label->voxelMillilitres * CubicMillimetresPerMl;
-  }
-  else
-  {
-    MeasureFinished(scene.scan ? &*scene.scan : nullptr, surface);
-  }
+  ForEachOnThreads(surfaces.size(), [&](std::size_t n) {
+    MeshedSurface & surface = surfaces[n];
+    if (surface.label && surface.label->isPart)
+    {
+      surface.measures.volume = surface.label->voxelMillilitres * CubicMillimetresPerMl;
+    }
+    else
+    {
+      MeasureFinished(scan ? &*scan : nullptr, surface);
+    }
+  });
+}
+
+void
+AddSurface(const MeshedSurface & surface, PictureScene & scene)
+{
   const SurfaceMeasures & measures = surface.measures;
   scene.surfaces.push_back(surface.scene);
   if (surface.forDrawing && surface.parts.IsNothing())
@@ -124,8 +132,9 @@ AddFacts(const LoadedSource & loaded, const PictureSource & source, PictureScene
 void
 AddSurfaces(std::vector<MeshedSurface> & surfaces, bool hasThresholds, PictureScene & scene)
 {
+  MeasureSurfaces(surfaces, scene.scan);
   std::vector<std::string> thresholds;
-  for (MeshedSurface & surface : surfaces)
+  for (const MeshedSurface & surface : surfaces)
   {
     if (const auto & request = surface.request)
     {
@@ -215,6 +224,7 @@ MakeSceneOfFiles(const PictureSource & source, const Events & events)
   }
   ApplySceneRules(source.surfaces.rules, names, nullptr);
   auto name = names.begin();
+  std::vector<MeshedSurface> shown;
   for (SceneSurface & surface : read)
   {
     if (name == names.end() || name->name != surface.name)
@@ -224,12 +234,17 @@ MakeSceneOfFiles(const PictureSource & source, const Events & events)
     surface.colour = name->colour;
     surface.opacity = name->opacity;
     ++name;
-    MeshedSurface shown;
-    shown.scene = surface;
-    if (FinishSurface(making, shown))
+    MeshedSurface finished;
+    finished.scene = surface;
+    if (FinishSurface(making, finished))
     {
-      AddSurface(shown, scene);
+      shown.push_back(std::move(finished));
     }
+  }
+  MeasureSurfaces(shown, scene.scan);
+  for (const MeshedSurface & surface : shown)
+  {
+    AddSurface(surface, scene);
   }
   if (scene.surfaces.empty())
   {

@@ -8,6 +8,7 @@
 #include <meshoptimizer.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace itk
 {
@@ -173,19 +174,34 @@ SimplifySheetForRendering(const TriangleSurface::PointsContainer & points,
   {
     return {};
   }
-  std::vector<PointId> ids; // of the sheet's points, ascending
+  PointId first = triangles.front()[0];
+  PointId last = first;
   for (const auto & triangle : triangles)
   {
-    ids.insert(ids.end(), triangle.begin(), triangle.end());
+    const auto [lowest, highest] = std::minmax_element(triangle.begin(), triangle.end());
+    first = std::min(first, *lowest);
+    last = std::max(last, *highest);
   }
-  SortUnique(ids);
-  TriangleSurface::PointsContainer places(ids.size()); // from the first, which keeps digits
-  const PositionType origin = ToPosition(points[ids.front()]);
-  std::vector<PointId> numbers(ids.back() - ids.front() + 1);
-  for (std::size_t n = 0; n < ids.size(); ++n)
+  constexpr PointId none = std::numeric_limits<PointId>::max();
+  std::vector<PointId> numbers(last - first + 1, none); // of the sheet's points, ascending
+  for (const auto & triangle : triangles)
   {
-    places[n] = ToPoint(Subtract(ToPosition(points[ids[n]]), origin));
-    numbers[ids[n] - ids.front()] = static_cast<PointId>(n);
+    for (const PointId point : triangle)
+    {
+      numbers[point - first] = 0;
+    }
+  }
+  std::vector<PointId> ids;
+  TriangleSurface::PointsContainer places; // from the first, which keeps digits
+  const PositionType origin = ToPosition(points[first]);
+  for (PointId & number : numbers)
+  {
+    if (number != none)
+    {
+      number = static_cast<PointId>(ids.size());
+      ids.push_back(first + static_cast<PointId>(&number - numbers.data()));
+      places.push_back(ToPoint(Subtract(ToPosition(points[ids.back()]), origin)));
+    }
   }
   std::vector<PointId> corners;
   corners.reserve(3 * triangles.size());
@@ -193,7 +209,7 @@ SimplifySheetForRendering(const TriangleSurface::PointsContainer & points,
   {
     for (const PointId point : triangle)
     {
-      corners.push_back(numbers[point - ids.front()]);
+      corners.push_back(numbers[point - first]);
     }
   }
   constexpr std::size_t bytes = sizeof(TriangleSurface::PointType);

@@ -114,21 +114,27 @@ FromWalls(const SceneSurface & surface,
     numbers[joinedPoints[point]] = point;
   }
   Triangles triangles;
-  Points used;
+  std::vector<std::uint8_t> isUsed(joinedPoints.size());
   for (const SharedWall & wall : walls)
   {
     const bool isTurned = wall.sides[1] == number;
     for (const auto & [a, b, c] : wall.sides[0] == number || isTurned ? wall.triangles : Triangles())
     {
       triangles.push_back({ numbers[a], numbers[isTurned ? c : b], numbers[isTurned ? b : c] });
-      used.insert(used.end(), triangles.back().begin(), triangles.back().end());
+      for (const std::uint32_t point : triangles.back())
+      {
+        isUsed[point] = 1;
+      }
     }
   }
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
-  for (std::uint32_t point = 0; point < used.size(); ++point)
+  Points used;
+  for (std::uint32_t point = 0; point < isUsed.size(); ++point)
   {
-    numbers[joinedPoints[used[point]]] = point;
+    if (isUsed[point] != 0)
+    {
+      numbers[joinedPoints[point]] = static_cast<std::uint32_t>(used.size());
+      used.push_back(point);
+    }
   }
   for (auto & triangle : triangles)
   {

@@ -53,7 +53,7 @@ struct JoinedSurfaces
 };
 
 /** Triangles keep their order. Triangles that are in the surfaces more than once otherwise, as where surfaces overlap,
- * stay separate. Time O(n log n); memory about 50 bytes a triangle. */
+ * stay separate. Time O(n); memory about 70 bytes a triangle. */
 JoinedSurfaces
 JoinSurfaces(const std::vector<SceneSurface> & surfaces);
 

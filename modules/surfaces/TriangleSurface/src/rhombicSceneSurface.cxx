@@ -3,6 +3,7 @@
 #include "detail/rhombicPointWelder.h"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -34,17 +35,48 @@ MakeFace(itk::TriangleSurface::TriangleType points, std::uint32_t number)
   return { points, isEven, number };
 }
 
+bool
+HaveSamePoints(const Face & a, const Face & b)
+{
+  return a.points[0] == b.points[0] && a.points[1] == b.points[1] && a.points[2] == b.points[2];
+}
+
+/** The faces ordered by their points, and by their numbers where points are equal. */
+std::vector<Face>
+Ordered(const std::vector<Face> & faces, std::size_t numberOfPoints)
+{
+  std::vector<std::size_t> places(numberOfPoints + 1); // of the faces with a lowest point
+  for (const Face & face : faces)
+  {
+    ++places[face.points[0] + 1];
+  }
+  std::partial_sum(places.begin(), places.end(), places.begin());
+  std::vector<Face> ordered(faces.size());
+  for (const Face & face : faces)
+  {
+    ordered[places[face.points[0]]++] = face;
+  }
+  // Each place is now the end of its faces.
+  auto begin = ordered.begin();
+  for (const std::size_t place : places)
+  {
+    const auto end = ordered.begin() + static_cast<std::ptrdiff_t>(place);
+    std::sort(begin, end, [](const Face & a, const Face & b) {
+      return std::tie(a.points[1], a.points[2], a.number) < std::tie(b.points[1], b.points[2], b.number);
+    });
+    begin = end;
+  }
+  return ordered;
+}
+
 /** For each triangle the number of the triangle that it is turned over, or its own number. */
 std::vector<std::uint32_t>
-FindOpposites(std::vector<Face> faces)
+FindOpposites(const std::vector<Face> & faces)
 {
   std::vector<std::uint32_t> opposites(faces.size());
-  std::sort(faces.begin(), faces.end(), [](const Face & a, const Face & b) {
-    return std::tie(a.points, a.number) < std::tie(b.points, b.number);
-  });
   for (auto begin = faces.begin(); begin != faces.end();)
   {
-    const auto end = std::find_if(begin, faces.end(), [&](const Face & face) { return face.points != begin->points; });
+    const auto end = std::find_if(begin, faces.end(), [&](const Face & face) { return !HaveSamePoints(face, *begin); });
     const bool isPair = end - begin == 2 && begin->isEven != (begin + 1)->isEven;
     opposites[begin->number] = isPair ? (begin + 1)->number : begin->number;
     for (auto face = begin + 1; face != end; ++face)
@@ -83,7 +115,7 @@ JoinSurfaces(const std::vector<SceneSurface> & surfaces)
       surfaceOf.push_back(static_cast<std::uint32_t>(n + 1));
     }
   }
-  const std::vector<std::uint32_t> opposites = FindOpposites(std::move(faces));
+  const std::vector<std::uint32_t> opposites = FindOpposites(Ordered(faces, joined.surface->GetNumberOfPoints()));
   for (std::uint32_t n = 0; n < triangles.size(); ++n)
   {
     if (opposites[n] >= n)
