@@ -669,11 +669,14 @@ LabelsToFCCFilter::GenerateData()
   const auto addTo = [](auto & all, const auto & some) { all.insert(all.end(), some.begin(), some.end()); };
   for (auto begin = boxes.begin() + (boxes.empty() ? 0 : 1), end = begin; begin != boxes.end();)
   {
-    // Labels are made side by side while their boxes have together no more voxels than the box of label 0, the first.
-    SizeValueType voxels = begin->voxels.GetNumberOfPixels();
-    end = std::find_if(begin + 1, boxes.end(), [&](const LabelInBox & box) {
-      voxels += box.voxels.GetNumberOfPixels();
-      return voxels > boxes.front().voxels.GetNumberOfPixels();
+    // Labels are made side by side while their boxes have together no more voxels than the box of label 0, the first;
+    // a large one is made alone, by all threads.
+    const auto voxelsOf = [](const LabelInBox & box) { return box.voxels.GetNumberOfPixels(); };
+    const auto isLarge = [&](const LabelInBox & box) { return 4 * voxelsOf(box) > voxelsOf(boxes.front()); };
+    SizeValueType voxels = voxelsOf(*begin);
+    end = std::find_if(begin + 1, isLarge(*begin) ? begin + 1 : boxes.end(), [&](const LabelInBox & box) {
+      voxels += voxelsOf(box);
+      return isLarge(box) || voxels > voxelsOf(boxes.front());
     });
     const ThreadIdType threads = end - begin > 1 ? 1 : this->GetNumberOfWorkUnits();
     rhombic::ForEachOnThreads(static_cast<std::size_t>(end - begin),
