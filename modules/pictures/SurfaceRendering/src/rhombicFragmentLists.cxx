@@ -93,6 +93,14 @@ FragmentLists::NumberOfFragments() const
 }
 
 void
+FragmentLists::End()
+{
+  glBindBuffer(GL_SHADER_STORAGE_BUFFER, 0);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, Firsts, 0);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, Fragments, 0);
+}
+
+void
 FragmentLists::SetUniforms(vtkShaderProgram * program) const
 {
   const std::array<int, 2> first{ m_Part.x, m_Part.y };

@@ -46,6 +46,10 @@ public:
   void
   Begin(const Viewport & part);
 
+  /** Other programs' buffers may be bound again. */
+  static void
+  End();
+
   /** The number of fragments since Begin(), as if all tiles of the part had as many as the fullest. Where it is above
    * Capacity, some were not kept. */
   std::size_t

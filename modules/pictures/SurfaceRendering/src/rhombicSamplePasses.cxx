@@ -462,6 +462,7 @@ SamplePasses::DrawLayers(ActorBuffers & actors)
   const Viewport whole{ 0, 0, static_cast<int>(m_Layers->GetWidth()), static_cast<int>(m_Layers->GetHeight()) };
   DrawParts(actors, whole, FragmentsOfSample * SamplesOf(whole));
   m_Window->GetState()->SetEnumState(GL_SCISSOR_TEST, false);
+  FragmentLists::End();
 }
 
 void
