@@ -327,19 +327,27 @@ ShadedSurfaces(std::vector<SceneSurface> surfaces)
 }
 
 std::vector<SceneSurface>
-SurfacesForViews(const std::vector<SceneSurface> & surfaces,
-                 const RenderSettings & render,
-                 const std::vector<View> & views)
+FewerForViews(const std::vector<SceneSurface> & surfaces,
+              const RenderSettings & render,
+              const std::vector<View> & views)
 {
   if (std::any_of(surfaces.begin(), surfaces.end(), [](const auto & surface) { return surface.pointColours; }))
   {
-    return ShadedSurfaces(surfaces);
+    return surfaces;
   }
   constexpr double unseen = 0.25; // pixels
   Scene scene;
   scene.surfaces = surfaces;
   const double pixelSize = SurfaceRenderer::Plan(scene, render, views).front().pixelSize;
-  return ShadedSurfaces(InFewerTriangles(surfaces, unseen * pixelSize));
+  return InFewerTriangles(surfaces, unseen * pixelSize);
+}
+
+std::vector<SceneSurface>
+SurfacesForViews(const std::vector<SceneSurface> & surfaces,
+                 const RenderSettings & render,
+                 const std::vector<View> & views)
+{
+  return ShadedSurfaces(FewerForViews(surfaces, render, views));
 }
 
 std::vector<PointedName>

@@ -63,8 +63,14 @@ BoxOfSurfaces(const std::vector<SceneSurface> & surfaces);
 std::vector<SceneSurface>
 ShadedSurfaces(std::vector<SceneSurface> surfaces);
 
-/** As ShadedSurfaces(), for several views: in as few triangles as give the same pictures (InFewerTriangles() within
- * half a pixel), unless points have colours. */
+/** Surfaces in as few triangles as give the same pictures in several views (InFewerTriangles() within a quarter of a
+ * pixel), unless points have colours. */
+std::vector<SceneSurface>
+FewerForViews(const std::vector<SceneSurface> & surfaces,
+              const RenderSettings & render,
+              const std::vector<View> & views);
+
+/** ShadedSurfaces() of FewerForViews(). */
 std::vector<SceneSurface>
 SurfacesForViews(const std::vector<SceneSurface> & surfaces,
                  const RenderSettings & render,

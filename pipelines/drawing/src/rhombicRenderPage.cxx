@@ -42,7 +42,8 @@ AnnotationsOf(const PictureScene & scene)
   return annotations;
 }
 
-void
+/** Draws still pictures. Returns the surfaces in as few triangles as these need. */
+std::vector<SceneSurface>
 DrawViews(const RenderPageSettings & settings,
           const PictureScene & source,
           SurfaceRenderer & renderer,
@@ -54,7 +55,8 @@ DrawViews(const RenderPageSettings & settings,
   annotations.scale = source.scale;
   render.margins = MarginsOf(annotations, render.width, render.height, settings.views.front().frame);
   Scene scene;
-  scene.surfaces = SurfacesForViews(source.surfaces, render, settings.views);
+  std::vector<SceneSurface> fewer = FewerForViews(source.surfaces, render, settings.views);
+  scene.surfaces = ShadedSurfaces(fewer);
   auto drawn = renderer.Render(scene, render, settings.views);
   for (std::size_t n = 0; n < drawn.size(); ++n)
   {
@@ -63,11 +65,13 @@ DrawViews(const RenderPageSettings & settings,
     Annotate(drawn[n].picture, drawn[n].projection.value(), annotations);
     page.views.push_back({ std::move(drawn[n].picture), settings.views[n].name });
   }
+  return fewer;
 }
 
 void
 DrawTurntable(const RenderPageSettings & settings,
               const PictureScene & source,
+              const std::vector<SceneSurface> & fewer,
               SurfaceRenderer & renderer,
               PageContent & page)
 {
@@ -81,7 +85,7 @@ DrawTurntable(const RenderPageSettings & settings,
   render.centre = CentreOf(BoxAround(source.surfaces));
   constexpr int quality = 78;
   Scene scene;
-  scene.surfaces = SurfacesForViews(source.surfaces, render, turn);
+  scene.surfaces = SurfacesForViews(fewer, render, turn);
   renderer.Render(scene, render, turn, [&page](const RenderedView & view) {
     page.turntable.push_back(EncodeJpeg(view.picture, quality, true));
   });
@@ -209,9 +213,9 @@ DrawPictures(const RenderPageSettings & settings,
              PageContent & content)
 {
   events.Progress("drawing views", 0.0);
-  DrawViews(settings, scene, renderer, content);
+  const std::vector<SceneSurface> fewer = DrawViews(settings, scene, renderer, content);
   events.Progress("turning the surfaces", 0.0);
-  DrawTurntable(settings, scene, renderer, content);
+  DrawTurntable(settings, scene, fewer, renderer, content); // smaller pictures, which need fewer triangles yet
   events.Progress("drawing slices", 0.0);
   DrawSlices(settings, scene, content);
 }
