@@ -19,6 +19,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 namespace rhombic
 {
@@ -346,14 +347,15 @@ ReduceSurfaces(const std::vector<SceneSurface> & surfaces,
 {
   std::optional<double> room;
   double leastShare = 0.0;
+  double errorBefore = 0.0;
+  std::vector<SceneSurface> fewer = surfaces;
   for (double error = SmallestError; error <= LargestError; error *= 2.0)
   {
     events.Progress("simplifying surfaces", 0.0);
-    const auto fewer = InFewerTriangles(surfaces, error, leastShare);
+    fewer = InFewerTriangles(fewer, error - std::exchange(errorBefore, error), leastShare);
     GiveBackFreedMemory();
     events.Progress("coding surfaces", 0.0);
     CodeSurfaces(fewer, scale, parts);
-    parts.measuredError = MeasureError(surfaces, fewer);
     if (!room)
     {
       room = static_cast<double>(findRoom());
@@ -361,12 +363,12 @@ ReduceSurfaces(const std::vector<SceneSurface> & surfaces,
     const auto taken = static_cast<double>(parts.surfaceBlocks.size());
     if (taken <= *room)
     {
-      return;
+      break;
     }
     constexpr double safety = 0.98; // fewer triangles need more bytes each
-    leastShare =
-      safety * *room / taken * static_cast<double>(parts.triangles) / static_cast<double>(CountTriangles(surfaces));
+    leastShare = safety * *room / taken;
   }
+  parts.measuredError = MeasureError(surfaces, fewer);
 }
 
 void

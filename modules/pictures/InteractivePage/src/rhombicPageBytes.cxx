@@ -5,6 +5,8 @@
 #include <zlib.h>
 
 #include <cstdint>
+#include <limits>
+#include <stdexcept>
 
 namespace rhombic
 {
@@ -41,21 +43,31 @@ HashToBase64(std::string_view hexadecimal)
 }
 
 std::string
-Deflate(std::string_view bytes)
+Deflate(std::string_view bytes, DeflateSearch search)
 {
   constexpr int level = 9;
-  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
-  std::string stream(size, '\0');
-  if (compress2(reinterpret_cast<Bytef *>(stream.data()),
-                &size,
-                reinterpret_cast<const Bytef *>(bytes.data()),
-                static_cast<uLong>(bytes.size()),
-                level) != Z_OK)
+  constexpr int windowBits = 15;
+  constexpr int memoryLevel = 9;
+  const int strategy = search == DeflateSearch::Runs ? Z_RLE : Z_DEFAULT_STRATEGY;
+  z_stream stream{};
+  if (bytes.size() > std::numeric_limits<uInt>::max() ||
+      deflateInit2(&stream, level, Z_DEFLATED, windowBits, memoryLevel, strategy) != Z_OK)
   {
     throw Failure(FailureKind::Memory, "There is too little memory to compress a part of the page.");
   }
-  stream.resize(size);
-  return stream;
+  std::string compressed(deflateBound(&stream, static_cast<uLong>(bytes.size())), '\0');
+  stream.next_in = reinterpret_cast<Bytef *>(const_cast<char *>(bytes.data())); // zlib does not change the input
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef *>(compressed.data());
+  stream.avail_out = static_cast<uInt>(compressed.size());
+  const int result = deflate(&stream, Z_FINISH);
+  compressed.resize(stream.total_out);
+  deflateEnd(&stream);
+  if (result != Z_STREAM_END)
+  {
+    throw std::logic_error("A part of the page could not be compressed.");
+  }
+  return compressed;
 }
 
 std::string

@@ -280,7 +280,7 @@ EncodeVolume(const PageVolume & volume, int slicesOfBlock)
       const int upperLeft = hasLeft && hasUpper ? volume.numbers[n - columns - 1] : 0;
       differences[n - begin] = static_cast<char>(volume.numbers[n] - Predict(left, upper, upperLeft));
     }
-    blocks[block] = Deflate(differences);
+    blocks[block] = Deflate(differences, DeflateSearch::Runs);
   });
   return blocks;
 }
