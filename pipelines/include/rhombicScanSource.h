@@ -3,6 +3,7 @@
 
 #include "rhombicEvents.h"
 #include "rhombicLabelMap.h"
+#include "rhombicMeshEstimate.h"
 #include "rhombicScanReader.h"
 #include "rhombicScanToLattice.h"
 #include "rhombicSceneRules.h"
@@ -21,13 +22,6 @@
 
 namespace rhombic
 {
-
-/** The surfaces of requests, estimated. */
-struct MeshEstimate
-{
-  double triangles = 0.0;
-  SurfaceBytes bytes;
-};
 
 /** The file or folder of a scan, and how the scan gets onto the lattice. */
 struct ScanSource
@@ -117,22 +111,6 @@ LoadSource(const ScanSource & source,
            const SurfaceSelection & selection,
            std::optional<SourceVolume> volume,
            const Events & events);
-
-/** Slices of a scan at equal distances, that stand for all of them. */
-struct SampledSlices
-{
-  const ScanImage & image;
-  std::size_t step = 1;         ///< those of the image that are used: every one, or every other and so on
-  std::size_t slicesOfEach = 1; ///< slices of the scan for which one stands
-};
-
-/** Estimates the surfaces of requests with isovalues from a part of a scan's slices.
- * \param lattice what they are extracted from */
-MeshEstimate
-EstimateMesh(const SampledSlices & sample,
-             const std::vector<SurfaceRequest> & requests,
-             itk::FCCIsosurfaceMode mode,
-             const LatticeSettings & lattice);
 
 /** Whether surfaces can be made of a lattice in slabs. */
 bool

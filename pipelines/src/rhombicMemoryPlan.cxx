@@ -74,18 +74,9 @@ DescribePlace(const UnreadSource & unread)
   }
 }
 
-/** Every how many slices are read: 8 to 64 in all, of some 64 million voxels. */
-std::size_t
-FindStep(const itk::Size<3> & size)
-{
-  constexpr std::size_t voxels = std::size_t{ 1 } << 26, fewest = 8, most = 64;
-  const std::size_t slices = std::clamp(voxels / (size[0] * size[1]), fewest, most);
-  return (size[2] + slices - 1) / slices;
-}
-
-/** Slices of a scan at equal distances; null where it can't be read in part. */
+/** Pairs of slices of a scan, one after the other; null where it can't be read in part. */
 ScanImage
-ReadSomeSlices(const UnreadScan & file, std::size_t step)
+ReadSlicePairs(const UnreadScan & file, const std::vector<std::size_t> & pairs)
 {
   return std::visit(
     [&](const auto & unread) -> ScanImage {
@@ -97,16 +88,17 @@ ReadSomeSlices(const UnreadScan & file, std::size_t step)
       {
         itk::ImageRegion<3> region = unread->GetLargestPossibleRegion();
         itk::Size<3> size = region.GetSize();
-        size[2] = (size[2] + step - 1) / step;
+        const std::size_t ofPair = std::min<std::size_t>(size[2], 2);
+        size[2] = ofPair * pairs.size();
         sample = Image::New();
         sample->SetSpacing(unread->GetSpacing());
         sample->SetRegions(size);
         sample->Allocate();
-        region.SetSize(2, 1);
-        for (std::size_t n = 0; n < size[2]; ++n)
+        region.SetSize(2, ofPair);
+        for (std::size_t n = 0; n < pairs.size(); ++n)
         {
-          region.SetIndex(2, static_cast<itk::IndexValueType>(n * step));
-          file.native->read(region, sample->GetBufferPointer() + n * size[0] * size[1]);
+          region.SetIndex(2, static_cast<itk::IndexValueType>(pairs[n]));
+          file.native->read(region, sample->GetBufferPointer() + n * ofPair * size[0] * size[1]);
         }
       }
       return sample;
@@ -228,13 +220,18 @@ PlanMeshScan(const MeshScanSettings & settings, const Events & events)
   }
   const UnreadSource unread = OpenSource(settings.source);
   const std::vector<SurfaceRequest> & requests = settings.surfaces.requests;
-  const std::size_t step = FindStep(GeometryOf(unread.file.scan.image).GetLargestPossibleRegion().GetSize());
-  const ScanImage slices = ReadSomeSlices(unread.file, step);
+  const itk::Size<3> size = GeometryOf(unread.file.scan.image).GetLargestPossibleRegion().GetSize();
+  std::vector<std::size_t> pairs = FindSlicePairs(size);
+  const ScanImage slices = ReadSlicePairs(unread.file, pairs);
   const std::vector<SurfaceRequest> known = FindRequests(settings, slices);
   MeshEstimate mesh;
   if (!known.empty())
   {
-    mesh = EstimateMesh({ slices, 1, step }, known, settings.surfaces.mode, settings.source.lattice);
+    for (std::size_t n = 0; n < pairs.size(); ++n)
+    {
+      pairs[n] = 2 * n; // of the slices that were read
+    }
+    mesh = EstimateMesh({ slices, pairs, size[2] }, known, settings.surfaces.mode, settings.source.lattice);
   }
   std::string text = "voxels        " + DescribePlace(unread) + '\n';
   std::uintmax_t volumes = unread.CountInMemory();

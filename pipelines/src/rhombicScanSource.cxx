@@ -168,64 +168,6 @@ ResolveRequests(const std::vector<SurfaceRequest> & requests, const TVolume & vo
   return ResolveIsovalues(requests, ComputeIntensities(volume, needsOtsu));
 }
 
-/** How many triangles a surface of area 1, in faces of voxels, has on the default lattice. */
-double
-TrianglesPerFace(itk::FCCIsosurfaceMode mode)
-{
-  using Mode = itk::FCCIsosurfaceMode;
-  switch (mode)
-  {
-    case Mode::Lean:
-      return 1.9;
-    case Mode::Octahedra:
-      return 5.7;
-    case Mode::Parallelepipeds:
-      return 2.8;
-    default:
-      return 7.0;
-  }
-}
-
-/** What the samples of a slice tell of an isosurface. */
-struct SliceCounts
-{
-  std::size_t crossings = 0; ///< edges of voxels in the slice that the surface crosses
-  std::size_t pages = 0;     ///< groups of rows with a sample that is inside
-};
-
-/** Counts a slice. \param rowsOfPage rows of a group */
-template <typename TPixel>
-SliceCounts
-CountSlice(const TPixel * value, const itk::Size<3> & size, const Threshold & threshold, std::size_t rowsOfPage)
-{
-  const auto isInside = [&threshold](TPixel sample) { return threshold.IsInside(static_cast<double>(sample)); };
-  SliceCounts counts;
-  bool isUsed = false; // the group so far
-  for (std::size_t row = 0; row + 1 < size[1]; ++row, ++value)
-  {
-    for (std::size_t column = 0; column + 1 < size[0]; ++column, ++value)
-    {
-      const bool inside = isInside(*value);
-      isUsed = isUsed || inside;
-      counts.crossings += (inside != isInside(value[1]) ? 1 : 0) + (inside != isInside(value[size[0]]) ? 1 : 0);
-    }
-    if ((row + 1) % rowsOfPage == 0 || row + 2 == size[1])
-    {
-      counts.pages += isUsed ? 1 : 0;
-      isUsed = false;
-    }
-  }
-  return counts;
-}
-
-/** Sites of the lattice per sample of a scan. */
-double
-DensityOf(const LatticeSettings & lattice, const itk::ImageBase<3>::SpacingType & voxel)
-{
-  const auto & [x, y, z] = lattice.spacing;
-  return lattice.nested ? 0.5 : x > 0.0 ? voxel[0] * voxel[1] * voxel[2] / (2.0 * x * y * z) : lattice.density;
-}
-
 LoadedSource
 PrepareLattice(FCCVolume volume, const ScanSource & source, const SurfaceSelection & selection, const Events & events)
 {
@@ -295,11 +237,9 @@ PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & sel
   loaded.stream.mayBeInSlabs = MayBeInSlabs(loaded.requests);
   if (source.streams)
   {
-    constexpr std::size_t mostSlices = 64;
-    const std::size_t depth = GeometryOf(ordered.image).GetLargestPossibleRegion().GetSize(2);
-    const std::size_t step = (depth + mostSlices - 1) / mostSlices;
+    const itk::Size<3> size = GeometryOf(ordered.image).GetLargestPossibleRegion().GetSize();
     const MeshEstimate mesh =
-      EstimateMesh({ ordered.image, step, step }, loaded.requests, selection.mode, source.lattice);
+      EstimateMesh({ ordered.image, FindSlicePairs(size), size[2] }, loaded.requests, selection.mode, source.lattice);
     loaded.stream.check = [check = source.checkMesh, mesh] { check ? check(mesh) : void(); };
     loaded.stream.surfaces = mesh.bytes;
   }
@@ -315,50 +255,6 @@ PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & sel
 }
 
 } // namespace
-
-MeshEstimate
-EstimateMesh(const SampledSlices & sample,
-             const std::vector<SurfaceRequest> & requests,
-             itk::FCCIsosurfaceMode mode,
-             const LatticeSettings & lattice)
-{
-  constexpr double bytesOfTriangle = 24.0;      // with its share of the points and their normals
-  constexpr double bytesWithSearch = 100.0;     // while crossings are searched for
-  constexpr std::size_t samplesOfPage = 50'000; // samples of the scan whose bits share a page of memory
-  const auto & size = GeometryOf(sample.image).GetLargestPossibleRegion().GetSize();
-  const std::size_t rowsOfPage = 1 + samplesOfPage / size[0];
-  std::vector<SliceCounts> slices((size[2] + sample.step - 1) / sample.step);
-  const auto count = [&](const auto & image) {
-    for (const SurfaceRequest & request : requests)
-    {
-      ForEachInBlocks(slices.size(), 1, [&, threshold = request.GetThreshold()](std::size_t n) {
-        const auto * const values = image->GetBufferPointer() + n * sample.step * size[1] * size[0];
-        const SliceCounts counts = CountSlice(values, size, threshold, rowsOfPage);
-        slices[n].crossings += counts.crossings;
-        slices[n].pages += counts.pages;
-      });
-    }
-  };
-  std::visit(count, sample.image);
-  SliceCounts sum;
-  for (const SliceCounts & counts : slices)
-  {
-    sum.crossings += counts.crossings;
-    sum.pages += counts.pages;
-  }
-  // A plane cuts as many edges along two axes, on average of its directions, as it has faces of voxels.
-  const double density = DensityOf(lattice, GeometryOf(sample.image).GetSpacing());
-  const double relativeDensity = density / itk::FCCLattice::DefaultDensity;
-  const double faces = static_cast<double>(sum.crossings * sample.slicesOfEach);
-  const double samples =
-    static_cast<double>(sum.pages * sample.slicesOfEach) * static_cast<double>(std::min(rowsOfPage, size[1]) * size[0]);
-  MeshEstimate estimate;
-  estimate.triangles = faces * TrianglesPerFace(mode) * std::pow(relativeDensity, 2.0 / 3.0);
-  const double bits = 0.25 * density * samples; // two for each site, but for pages in which none is inside
-  estimate.bytes = { static_cast<std::uintmax_t>(estimate.triangles * bytesOfTriangle + bits),
-                     static_cast<std::uintmax_t>(estimate.triangles * bytesWithSearch) };
-  return estimate;
-}
 
 bool
 MayBeInSlabs(const std::vector<SurfaceRequest> & requests)

@@ -497,7 +497,7 @@ TEST_F(LargeScan, MeshesBeyondTheMemoryAreRefusedBeforeTheWork)
   const auto plan = [&] { rhombic::PlanMeshScan(settings, {}); };
   const auto mesh = [&] { this->Mesh(settings); };
   const std::string sentence = sentenceOf(plan);
-  EXPECT_NE(sentence.find("Making surfaces of some 0.3"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("Making surfaces of some 0.69 million"), std::string::npos) << sentence;
   EXPECT_NE(sentence.find("use a coarser lattice with --density 0.0"), std::string::npos) << sentence;
   EXPECT_EQ(sentenceOf(mesh), sentence);
   EXPECT_FALSE(fs::exists(settings.mesh));

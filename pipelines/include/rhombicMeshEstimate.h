@@ -1,0 +1,46 @@
+#ifndef rhombicMeshEstimate_h
+#define rhombicMeshEstimate_h
+
+#include "rhombicScanToLattice.h"
+#include "rhombicSurfaceRequest.h"
+
+#include "itkFCCIsosurfaceMode.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace rhombic
+{
+
+/** The surfaces of requests, estimated. */
+struct MeshEstimate
+{
+  double triangles = 0.0;
+  SurfaceBytes bytes;
+};
+
+/** Pairs of neighbouring slices at equal distances, from the first slice of a scan to the last. */
+struct SampledSlices
+{
+  const ScanImage & image;
+  std::vector<std::size_t> pairs; ///< for each pair, which slice of the image is its first
+  std::size_t depth = 1;          ///< slices of the scan
+};
+
+/** Which slices of a scan are the first of the pairs from which meshes are estimated: all, or 6 and more with some 32
+ * million voxels. */
+std::vector<std::size_t>
+FindSlicePairs(const itk::Size<3> & size);
+
+/** Estimates the surfaces of requests with isovalues from edges of voxels that they cross: some 4 % from the number of
+ * triangles of scans and phantoms, more where noise is most of the surface.
+ * \param lattice what they are extracted from */
+MeshEstimate
+EstimateMesh(const SampledSlices & sample,
+             const std::vector<SurfaceRequest> & requests,
+             itk::FCCIsosurfaceMode mode,
+             const LatticeSettings & lattice);
+
+} // namespace rhombic
+
+#endif
