@@ -1,6 +1,7 @@
 #include "itkEdgeCollapse.h"
 
 #include "detail/itkClosestOnTriangle.h"
+#include "itkFanDistances.h"
 #include "itkQuadric.h"
 
 #include <algorithm>
@@ -47,45 +48,92 @@ struct Shape
   }
 };
 
-/** The distinct points of some triangles, ascending. */
-std::vector<PointId>
-FindPoints(const std::vector<TriangleType> & triangles)
+/** Numbers for the distinct points of some triangles: indices into their ascending ids. */
+class LocalIds
 {
-  std::vector<PointId> ids;
-  ids.reserve(3 * triangles.size());
-  for (const TriangleType & triangle : triangles)
+public:
+  explicit LocalIds(const std::vector<TriangleType> & triangles)
   {
-    ids.insert(ids.end(), triangle.begin(), triangle.end());
-  }
-  SortUnique(ids);
-  return ids;
-}
-
-/** The triangles with indices into \a ids in place of these ids. */
-std::vector<TriangleType>
-ToLocal(std::vector<TriangleType> triangles, const std::vector<PointId> & ids)
-{
-  for (TriangleType & triangle : triangles)
-  {
-    for (PointId & point : triangle)
+    std::size_t size = 16;
+    while (size < 3 * triangles.size()) // closed surfaces have a sixth as many points
     {
-      point = static_cast<PointId>(std::lower_bound(ids.begin(), ids.end(), point) - ids.begin());
+      size *= 2;
+    }
+    m_Slots.assign(size, { None, 0 });
+    for (const TriangleType & triangle : triangles)
+    {
+      for (const PointId id : triangle)
+      {
+        Slot & slot = this->FindSlot(id);
+        if (slot.id == None)
+        {
+          slot.id = id;
+          m_Ids.push_back(id);
+        }
+      }
+    }
+    std::sort(m_Ids.begin(), m_Ids.end());
+    for (PointId local = 0; local < m_Ids.size(); ++local)
+    {
+      this->FindSlot(m_Ids[local]).local = local;
     }
   }
-  return triangles;
-}
+
+  const std::vector<PointId> &
+  GetIds() const
+  {
+    return m_Ids;
+  }
+
+  std::vector<TriangleType>
+  ToLocal(std::vector<TriangleType> triangles)
+  {
+    for (TriangleType & triangle : triangles)
+    {
+      for (PointId & point : triangle)
+      {
+        point = this->FindSlot(point).local;
+      }
+    }
+    return triangles;
+  }
+
+private:
+  struct Slot
+  {
+    PointId id; ///< None if the slot is free
+    PointId local;
+  };
+
+  /** The slot of an id, or the free one where it belongs. */
+  Slot &
+  FindSlot(PointId id)
+  {
+    constexpr std::uint32_t golden = 0x9e3779b9; // 2^32 divided by the golden ratio, which scatters successive numbers
+    std::size_t place = (id * golden >> 8) & (m_Slots.size() - 1);
+    while (m_Slots[place].id != id && m_Slots[place].id != None)
+    {
+      place = (place + 1) & (m_Slots.size() - 1);
+    }
+    return m_Slots[place];
+  }
+
+  std::vector<Slot> m_Slots; ///< a power of two, more than there are points
+  std::vector<PointId> m_Ids;
+};
 
 /** The state of the triangles while edges collapse. Points have local ids. */
 class EdgeCollapse
 {
 public:
-  EdgeCollapse(const SurfaceOfParts & whole, const SurfacePart & part)
+  EdgeCollapse(const SurfaceOfParts & whole, const SurfacePart & part, LocalIds ids)
     : m_Original(whole.original)
-    , m_Ids(FindPoints(part.triangles))
+    , m_Ids(ids.GetIds())
     , m_Origin(ToPosition(whole.surface.GetPoints()[m_Ids.front()]))
-    , m_Triangles(ToLocal(part.triangles, m_Ids))
+    , m_Triangles(ids.ToLocal(part.triangles))
     , m_Sheets(part.sheets)
     , m_Remains(m_Triangles.size(), 1)
+    , m_Remaining(m_Triangles.size())
     , m_Changes(m_Triangles.size(), 0)
     , m_FirstCorner(m_Ids.size(), None)
     , m_NextCorner(3 * m_Triangles.size())
@@ -125,7 +173,7 @@ public:
   }
 
   CollapseLog
-  Run(double largestError)
+  Run(double largestError, std::size_t fewestTriangles)
   {
     m_LargestError = largestError;
     m_Versions.assign(m_Ids.size(), 0);
@@ -133,7 +181,7 @@ public:
     this->AddQuadrics();
     this->ProposeAll();
     CollapseLog log;
-    while (!m_Candidates.empty())
+    while (!m_Candidates.empty() && m_Remaining > fewestTriangles)
     {
       const Candidate best = m_Candidates.top();
       m_Candidates.pop();
@@ -162,10 +210,9 @@ public:
         m_IsOther[edge.from] = m_IsOther[edge.to] = 1;
         continue;
       }
-      if (m_Original.surface != nullptr)
-      {
-        this->AreWitnessesNear(edge.position);
-      }
+      this->CollectWitnesses();
+      m_Covering.assign(log.covering.begin() + edge.witnesses - static_cast<std::ptrdiff_t>(m_Moved.size()),
+                        log.covering.begin() + edge.witnesses);
       this->Collapse(edge);
     }
   }
@@ -218,6 +265,13 @@ private:
   };
 
   using Fan = std::vector<FanTriangle>;
+
+  /** A witness and the sheet that it lies in. */
+  struct MovedWitness
+  {
+    WitnessId witness;
+    std::uint32_t sheet;
+  };
 
   /** An edge that may collapse; point \a from vanishes. */
   struct Candidate
@@ -353,7 +407,7 @@ private:
       return false;
     }
     this->CollectFans(from, to);
-    EdgeToCollapse edge{ from, to, this->FindPosition(from, to), None, error };
+    EdgeToCollapse edge{ from, to, this->FindPosition(from, to), None, 0, error };
     if (!this->KeepsTopology(from, to) || !this->KeepsShape(from, to, edge.position))
     {
       return false;
@@ -366,6 +420,8 @@ private:
     m_Quadrics[to].Add(m_Quadrics[from]);
     m_Versions[to] += m_Versions[from] + 1;
     this->Collapse(edge);
+    log.covering.insert(log.covering.end(), m_Covering.begin(), m_Covering.end());
+    edge.witnesses = static_cast<std::uint32_t>(log.covering.size());
     edge.error = log.edges.empty() ? edge.error : std::max(edge.error, log.edges.back().error);
     log.edges.push_back(edge);
     return true;
@@ -580,42 +636,43 @@ private:
     return nearest;
   }
 
-  /** Assigns the witnesses of the triangles at the edge to the nearest triangles around its position, until a witness
-   * is too far away. Returns whether all are near. */
+  /** Collects the witnesses that move when the edge collapses: those of all triangles of the vanishing point, and of
+   * those of the other that change. */
+  void
+  CollectWitnesses()
+  {
+    m_Moved.clear();
+    if (m_Original.surface == nullptr)
+    {
+      return;
+    }
+    const auto collect = [&](const FanTriangle & fan) {
+      for (WitnessId id = m_FirstWitness[fan.id]; id != None; id = m_NextWitness[id])
+      {
+        m_Moved.push_back({ id, m_Sheets[fan.id] });
+      }
+    };
+    std::for_each(m_FromFan.begin(), m_FromFan.end(), collect);
+    std::for_each(m_Changed.begin() + static_cast<std::ptrdiff_t>(m_NumberFromChanged), m_Changed.end(), collect);
+  }
+
+  /** Finds for each witness that moves the nearest triangle of its sheet around the position. Returns whether all are
+   * near. */
   bool
   AreWitnessesNear(const PositionType & position)
   {
-    m_Assigned.clear();
-    const auto assign = [&](TriangleId triangle) {
-      for (WitnessId id = m_FirstWitness[triangle]; id != None; id = m_NextWitness[id])
-      {
-        const PositionType & witness = m_WitnessPositions[id];
-        double least = std::numeric_limits<double>::infinity();
-        TriangleId nearest = None;
-        for (const FanTriangle & fan : m_Changed)
-        {
-          if (m_Sheets[fan.id] != m_Sheets[triangle])
-          {
-            continue;
-          }
-          const double squared = SquaredDistance(
-            witness, ClosestOnTriangle(witness, { position, m_Positions[fan.next], m_Positions[fan.last] }));
-          nearest = squared < least ? fan.id : nearest;
-          least = std::min(least, squared);
-        }
-        if (!(least <= m_Original.limit * m_Original.limit))
-        {
-          return false;
-        }
-        m_Assigned.emplace_back(id, nearest);
-      }
-      return true;
-    };
-    // All triangles of the vanishing point, and those of the other that change.
-    return std::all_of(m_FromFan.begin(), m_FromFan.end(), [&](const FanTriangle & fan) { return assign(fan.id); }) &&
-           std::all_of(m_Changed.begin() + static_cast<std::ptrdiff_t>(m_NumberFromChanged),
-                       m_Changed.end(),
-                       [&](const FanTriangle & fan) { return assign(fan.id); });
+    this->CollectWitnesses();
+    m_FanDistances.Begin(m_Moved.size());
+    for (std::size_t n = 0; n < m_Moved.size(); ++n)
+    {
+      m_FanDistances.SetWitness(n, Subtract(m_WitnessPositions[m_Moved[n].witness], position), m_Moved[n].sheet);
+    }
+    for (const FanTriangle & fan : m_Changed)
+    {
+      m_FanDistances.AddTriangle(
+        Subtract(m_Positions[fan.next], position), Subtract(m_Positions[fan.last], position), m_Sheets[fan.id]);
+    }
+    return m_FanDistances.FindNearest(m_Original.limit * m_Original.limit, m_Covering);
   }
 
   /** Whether all points around an edge, and its own, are as they were. */
@@ -638,7 +695,7 @@ private:
   void
   Collapse(const EdgeToCollapse & edge)
   {
-    const auto & [from, to, position, near, error] = edge;
+    const auto & [from, to, position, near, witnesses, error] = edge;
     if (!this->KeepsPlace(from, to))
     {
       this->MixNormals(from, to, position);
@@ -658,6 +715,7 @@ private:
       if (std::find(triangle.begin(), triangle.end(), to) != triangle.end())
       {
         m_Remains[corner / 3] = 0;
+        --m_Remaining;
         continue;
       }
       triangle[corner % 3] = to;
@@ -681,10 +739,11 @@ private:
     {
       m_FirstWitness[fan.id] = None;
     }
-    for (const auto & [witness, triangle] : m_Assigned)
+    for (std::size_t n = 0; n < m_Moved.size(); ++n)
     {
-      m_NextWitness[witness] = m_FirstWitness[triangle];
-      m_FirstWitness[triangle] = witness;
+      WitnessId & first = m_FirstWitness[m_Changed[m_Covering[n]].id];
+      m_NextWitness[m_Moved[n].witness] = first;
+      first = m_Moved[n].witness;
     }
   }
 
@@ -717,6 +776,7 @@ private:
   std::vector<TriangleType> m_Triangles;
   const std::vector<std::uint32_t> m_Sheets;
   std::vector<std::uint8_t> m_Remains;
+  std::size_t m_Remaining; ///< triangles
   std::vector<std::uint16_t> m_Changes;
 
   // By point, except m_NextCorner.
@@ -746,18 +806,24 @@ private:
   std::vector<WitnessId> m_Around; ///< the witnesses of all triangles at its points
   Fan m_FromFan;
   Fan m_ToFan;
-  Fan m_Changed;                                            ///< the triangles around its position that change
-  std::size_t m_NumberFromChanged = 0;                      ///< of them, at the vanishing point; they come first
-  std::vector<std::pair<WitnessId, TriangleId>> m_Assigned; ///< its witnesses and the triangles nearest to them
+  Fan m_Changed;                         ///< the triangles around its position that change
+  std::size_t m_NumberFromChanged = 0;   ///< of them, at the vanishing point; they come first
+  std::vector<MovedWitness> m_Moved;     ///< its witnesses
+  std::vector<std::uint16_t> m_Covering; ///< for each of them, which of the changed triangles is nearest
+  FanDistances m_FanDistances;
 };
 
 } // namespace
 
 CollapseLog
-CollapseEdges(const SurfaceOfParts & whole, const SurfacePart & part, double largestError, CollapsedPart & collapsed)
+CollapseEdges(const SurfaceOfParts & whole,
+              const SurfacePart & part,
+              double largestError,
+              std::size_t fewestTriangles,
+              CollapsedPart & collapsed)
 {
-  EdgeCollapse collapse(whole, part);
-  CollapseLog log = collapse.Run(largestError);
+  EdgeCollapse collapse(whole, part, LocalIds(part.triangles));
+  CollapseLog log = collapse.Run(largestError, fewestTriangles);
   collapsed = collapse.GetResult();
   return log;
 }
@@ -768,7 +834,7 @@ ReplayCollapses(const SurfaceOfParts & whole,
                 const CollapseLog & log,
                 const std::vector<std::uint16_t> & mostChanges)
 {
-  EdgeCollapse collapse(whole, part);
+  EdgeCollapse collapse(whole, part, LocalIds(part.triangles));
   collapse.Replay(log, mostChanges);
   return collapse.GetResult();
 }

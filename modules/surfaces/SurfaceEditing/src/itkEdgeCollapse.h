@@ -52,16 +52,18 @@ struct EdgeToCollapse
 {
   std::uint32_t from; ///< this point vanishes
   std::uint32_t to;
-  PositionType position;  ///< new position of point \a to, relative to that of the part's first point
-  std::uint32_t near = 0; ///< a triangle of the original near the position
-  double error;           ///< of this edge and all before it, at most
+  PositionType position;       ///< new position of point \a to, relative to that of the part's first point
+  std::uint32_t near = 0;      ///< a triangle of the original near the position
+  std::uint32_t witnesses = 0; ///< those that move to other triangles with this edge and all before it
+  double error;                ///< of this edge and all before it, at most
 };
 
 /** The edges that collapse, one after the other. */
 struct CollapseLog
 {
   std::vector<EdgeToCollapse> edges;
-  bool wasHeldBack = false; ///< whether others stayed because of the error or the distance from the original
+  std::vector<std::uint16_t> covering; ///< for each witness that moves, which of the changed triangles then covers it
+  bool wasHeldBack = false;            ///< whether others stayed because of the error or the distance from the original
 };
 
 /** A point that has moved. */
@@ -97,9 +99,13 @@ struct CollapsedPart
  * new triangles sheet by sheet.
  *
  * The border of the part stays, and no new edge joins two border points, so that parts simplified one by one fit
- * together. */
+ * together. Ends early when \a fewestTriangles or fewer remain. */
 CollapseLog
-CollapseEdges(const SurfaceOfParts & whole, const SurfacePart & part, double largestError, CollapsedPart & collapsed);
+CollapseEdges(const SurfaceOfParts & whole,
+              const SurfacePart & part,
+              double largestError,
+              std::size_t fewestTriangles,
+              CollapsedPart & collapsed);
 
 /** Collapses the edges of a log again, without those that would change a triangle more often than \a mostChanges says,
  * and without those that depend on them: the triangles around an edge must be as they were when the log was made. */

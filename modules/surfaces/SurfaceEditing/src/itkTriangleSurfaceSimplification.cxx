@@ -235,6 +235,11 @@ public:
       const SizeValueType removed = before - m_State.GetNumberOfTriangles();
       const bool isStuck = removed < SmallestShareRemoved * static_cast<double>(before) &&
                            (m_Target == 0 || 2 * removed < before - m_Target);
+      if (isSound && isStuck && m_EndsEarly)
+      {
+        m_EndsEarly = false;
+        continue;
+      }
       if (!isSound || (isStuck && !(error < limit) && !this->IsAtTarget()))
       {
         report.end = isSound && m_IsHeldBack && m_Original != nullptr ? SimplificationEnd::MaximumError
@@ -288,15 +293,19 @@ private:
     this->SwapWithBefore();
     m_Points.isHeld = m_IsHeld;
     this->CutIntoPatches(cut);
+    const double shareOfPatch = this->FindShareOfPatch();
     rhombic::ForEachInBlocks(m_Patches.size(), 1, [&](std::size_t id) {
       Patch & patch = m_Patches[id];
-      patch.log = CollapseEdges({ *m_Before, m_Points, m_Limits }, patch.before, error, patch.after);
+      const auto fewest = static_cast<std::size_t>(shareOfPatch * static_cast<double>(patch.before.triangles.size()));
+      patch.log = CollapseEdges({ *m_Before, m_Points, m_Limits }, patch.before, error, fewest, patch.after);
       m_Progress.Completed(patch.before.triangles.size());
     });
     this->AimAtTarget();
     this->JoinPatches();
+    const double removed = static_cast<double>(m_Before->GetNumberOfTriangles()) - m_Aimed;
     const bool isSound = this->PutBackBadTriangles() &&
                          HaveSameTopology(ComputeTriangleSurfaceTopology(m_State), m_Topology, m_IsOneSheet);
+    m_SharePutBack = removed > 0.0 ? (static_cast<double>(m_State.GetNumberOfTriangles()) - m_Aimed) / removed : 0.0;
     m_IsHeldBack =
       std::any_of(m_Patches.begin(), m_Patches.end(), [](const Patch & patch) { return patch.log.wasHeldBack; });
     if (!isSound)
@@ -361,6 +370,23 @@ private:
     }
   }
 
+  /** The triangles that this step may leave before bad ones are put back. */
+  double
+  FindAim() const
+  {
+    const auto before = static_cast<double>(m_Before->GetNumberOfTriangles());
+    const double target = Aim * static_cast<double>(m_Target);
+    return std::max(target - m_SharePutBack * std::max(0.0, before - target), SmallestShareKept * before);
+  }
+
+  /** The share of its triangles that a patch keeps at least: some can spare more than others. */
+  double
+  FindShareOfPatch() const
+  {
+    const double shareRemoved = 1.0 - this->FindAim() / static_cast<double>(m_Before->GetNumberOfTriangles());
+    return m_EndsEarly ? 1.0 - std::min(shareRemoved + 0.15, 2.0 * shareRemoved + 0.05) : 0.0;
+  }
+
   /** If the patches together have fewer triangles than this step may leave, takes back the collapses of largest error.
    */
   void
@@ -377,7 +403,8 @@ private:
       }
     }
     const auto before = static_cast<double>(m_Before->GetNumberOfTriangles());
-    const double target = std::max(Aim * static_cast<double>(m_Target), SmallestShareKept * before);
+    const double target = this->FindAim();
+    m_Aimed = std::max(target, before - static_cast<double>(removed));
     if (static_cast<double>(removed) <= before - target)
     {
       return;
@@ -696,7 +723,10 @@ private:
   const Original * const m_Original;
   OriginalSurface m_Limits{};
   SizeValueType m_PlacesPutBack = 0;
-  bool m_IsHeldBack = false; ///< whether maximumError kept edges from collapsing in the last step
+  double m_Aimed = 0.0;        ///< triangles in this step before bad ones were put back
+  double m_SharePutBack = 0.0; ///< by the last step, of the triangles that it had removed
+  bool m_EndsEarly = true;     ///< whether patches end when they have removed more than a step needs
+  bool m_IsHeldBack = false;   ///< whether maximumError kept edges from collapsing in the last step
 
   Flags m_IsHeld; ///< for each point of m_State, whether it stays, because triangles there were bad
 

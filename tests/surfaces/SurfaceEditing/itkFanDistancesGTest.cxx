@@ -1,0 +1,67 @@
+#include "itkFanDistances.h"
+
+#include "detail/itkClosestOnTriangle.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+TEST(FanDistances, NearestTrianglesAreThoseOfASearchOneByOne)
+{
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  const auto position = [&] { return itk::PositionType{ normal(random), normal(random), normal(random) }; };
+  itk::FanDistances distances;
+  std::vector<std::uint16_t> numbers;
+  for (int fan = 0; fan < 500; ++fan)
+  {
+    const std::size_t witnesses = random() % 20;
+    std::vector<std::pair<itk::PositionType, std::uint32_t>> all; // with their sheets
+    distances.Begin(witnesses);
+    for (std::size_t n = 0; n < witnesses; ++n)
+    {
+      all.emplace_back(position(), random() % 2);
+      distances.SetWitness(n, all.back().first, all.back().second);
+    }
+    std::vector<std::pair<itk::CornersType, std::uint32_t>> triangles;
+    for (std::size_t n = 0; n < 12; ++n)
+    {
+      const itk::PositionType b = position();
+      const bool isFlat = random() % 4 == 0;
+      const itk::PositionType c =
+        isFlat ? itk::Scaled(b, random() % 3) : position(); // also without a side, or with two
+      triangles.push_back({ { itk::PositionType{}, b, c }, static_cast<std::uint32_t>(n % 2) });
+      distances.AddTriangle(b, c, triangles.back().second);
+    }
+    double farthest = 0.0;
+    distances.FindNearest(1.0, numbers);
+    ASSERT_EQ(numbers.size(), witnesses);
+    for (std::size_t n = 0; n < witnesses; ++n)
+    {
+      const auto & [witness, sheet] = all[n];
+      const auto distanceFrom = [&, &witness = witness](const itk::CornersType & corners) {
+        return itk::SquaredDistance(witness, itk::ClosestOnTriangle(witness, corners));
+      };
+      double least = std::numeric_limits<double>::infinity();
+      for (const auto & [corners, ownSheet] : triangles)
+      {
+        least = ownSheet == sheet ? std::min(least, distanceFrom(corners)) : least;
+      }
+      ASSERT_EQ(triangles[numbers[n]].second, sheet);
+      ASSERT_NEAR(distanceFrom(triangles[numbers[n]].first), least, 1e-11);
+      farthest = std::max(farthest, least);
+    }
+    EXPECT_TRUE(distances.FindNearest(1.0001 * farthest + 1e-11, numbers));
+    EXPECT_TRUE(witnesses == 0 || !distances.FindNearest(0.9999 * farthest - 1e-11, numbers));
+  }
+}
+
+TEST(FanDistances, AWitnessWithoutATriangleOfItsSheetIsFar)
+{
+  itk::FanDistances distances;
+  std::vector<std::uint16_t> numbers;
+  distances.Begin(1);
+  distances.SetWitness(0, {}, 1);
+  distances.AddTriangle({ 1, 0, 0 }, { 0, 1, 0 }, 0);
+  EXPECT_FALSE(distances.FindNearest(1e9, numbers));
+}
