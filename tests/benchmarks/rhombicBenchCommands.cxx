@@ -458,11 +458,19 @@ MeasureScale(const ScaleVolume & balls, const std::string & limit, const BenchSe
   }
   if (fits)
   {
-    const Command flyingEdges{
-      FolderOfPrograms() / "rhombic-bare-script", volume, "20000.5", folder / "bare/balls.stl"
+    const auto measure = [&result](const std::string & name, const Command & other) {
+      result.details[name + " MiB"] = std::round(MeasurePeakMemory(other, "Pss_Anon:"));
+      result.details[name + " s"] = std::round(10.0 * TimeOf([&] { return RunCommand(other); })) / 10.0;
     };
-    result.details["vtkFlyingEdges3D MiB"] = std::round(MeasurePeakMemory(flyingEdges, "Pss_Anon:"));
-    result.details["vtkFlyingEdges3D s"] = std::round(10.0 * TimeOf([&] { return RunCommand(flyingEdges); })) / 10.0;
+    measure("vtkFlyingEdges3D",
+            { FolderOfPrograms() / "rhombic-bare-script", volume, "20000.5", folder / "bare/balls.stl" });
+    if (fs::exists("/usr/lib/python3/dist-packages/skimage")) // Debian's python3-skimage
+    {
+      const std::string script =
+        "import numpy, sys, skimage.measure; n = int(sys.argv[2]); "
+        "skimage.measure.marching_cubes(numpy.fromfile(sys.argv[1], '<u2').reshape(n, n, n), 20000.5)";
+      measure("scikit-image", { "/usr/bin/python3", "-c", script, folder / "balls.raw", std::to_string(balls.size) });
+    }
   }
   const auto measures = nlohmann::json::parse(std::ifstream(folder / "ours/balls.json"));
   const double measured = 1000.0 * measures.at(0).at("measures").at("volume_ml").get<double>();

@@ -555,24 +555,50 @@ private:
   {
     const auto & points = m_State.GetPoints();
     const auto & triangles = m_State.GetTriangles();
+    const auto isActive = [&](const TriangleTree::Leaf & leaf) {
+      return std::any_of(leaf.begin(), leaf.end(), [&](TriangleId id) { return m_IsFresh[id] != 0; });
+    };
+    const auto mayMeet = [&](TriangleId one, TriangleId other) {
+      return (m_IsFresh[one] | m_IsFresh[other]) != 0 && (m_IsNew[one] | m_IsNew[other]) != 0;
+    };
     const auto find = [&](std::size_t begin, std::size_t end, std::vector<TriangleId> & found) {
-      for (auto id = static_cast<TriangleId>(begin); id < end; ++id)
+      std::array<Box, TriangleTree::LeafSize> boxes;
+      for (std::size_t number = begin; number < end; ++number)
       {
-        if (!m_IsFresh[id])
+        const TriangleTree::Leaf leaf = state.GetLeaf(number);
+        m_Progress.Completed(leaf.size());
+        if (!isActive(leaf))
         {
           continue;
         }
-        state.VisitTriangles(TriangleTree::BoxOf(points, triangles[id]), [&](TriangleId other) {
-          if (other != id && (m_IsNew[id] || m_IsNew[other]) && !(m_IsFresh[other] && other > id) &&
-              FindContact(points, triangles[id], triangles[other]) != TriangleContact::Apart)
+        std::transform(leaf.begin(), leaf.end(), boxes.begin(), [&](TriangleId id) {
+          return TriangleTree::BoxOf(points, triangles[id]);
+        });
+        Box box = boxes[0];
+        std::for_each(boxes.begin() + 1, boxes.begin() + leaf.size(), [&box](const Box & more) { box.Add(more); });
+        state.VisitLeaves(box, 0, [&](std::size_t otherNumber) {
+          const TriangleTree::Leaf others = state.GetLeaf(otherNumber);
+          if (otherNumber < number && isActive(others)) // this pair of leaves was visited from there
           {
-            found.insert(found.end(), { id, other });
+            return;
+          }
+          for (const TriangleId other : others)
+          {
+            const Box otherBox = TriangleTree::BoxOf(points, triangles[other]);
+            for (std::size_t n = 0; n < leaf.size(); ++n)
+            {
+              const TriangleId id = leaf.begin()[n];
+              if (otherBox.Overlaps(boxes[n]) && mayMeet(id, other) && (otherNumber != number || id < other) &&
+                  FindContact(points, triangles[id], triangles[other]) != TriangleContact::Apart)
+              {
+                found.insert(found.end(), { id, other });
+              }
+            }
           }
         });
       }
-      m_Progress.Completed(end - begin);
     };
-    for (const TriangleId id : CollectIds(triangles.size(), SimplifiedBlock, find))
+    for (const TriangleId id : CollectIds(state.GetNumberOfLeaves(), SimplifiedBlock / TriangleTree::LeafSize, find))
     {
       isBad[id] = 1;
     }
