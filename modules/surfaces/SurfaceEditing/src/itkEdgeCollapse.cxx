@@ -1,7 +1,7 @@
 #include "itkEdgeCollapse.h"
 
 #include "detail/itkClosestOnTriangle.h"
-#include "itkFanDistances.h"
+#include "itkTriangleDistances.h"
 #include "itkQuadric.h"
 
 #include <algorithm>

@@ -480,14 +480,22 @@ private:
     m_IsNew.clear();
     m_IsFresh.clear();
     m_Versions.clear();
+    m_FirstCovered.clear();
+    m_CoveredPoints.clear();
     std::fill(m_IsPresent.begin(), m_IsPresent.end(), std::uint8_t{ 0 });
     for (PatchId id = 0; id < m_Patches.size(); ++id)
     {
       Patch & patch = m_Patches[id];
       const CollapsedPart & after = patch.after;
-      for (const Witness & witness : after.part.witnesses)
+      m_FirstCovered.resize(m_Begin.back() + after.part.triangles.size());
+      for (std::size_t n = 0, triangle = 0; triangle < after.part.triangles.size(); ++triangle) // grouped by triangle
       {
-        m_WitnessTriangles[witness.point] = m_Begin.back() + witness.triangle;
+        m_FirstCovered[m_Begin.back() + triangle] = static_cast<std::uint32_t>(m_CoveredPoints.size());
+        for (; n < after.part.witnesses.size() && after.part.witnesses[n].triangle == triangle; ++n)
+        {
+          m_CoveredPoints.push_back(after.part.witnesses[n].point);
+          m_WitnessTriangles[after.part.witnesses[n].point] = static_cast<TriangleId>(m_Begin.back() + triangle);
+        }
       }
       triangles.insert(triangles.end(), after.part.triangles.begin(), after.part.triangles.end());
       m_Sheets.insert(m_Sheets.end(), after.part.sheets.begin(), after.part.sheets.end());
@@ -521,6 +529,7 @@ private:
         }
       }
     }
+    m_FirstCovered.push_back(static_cast<std::uint32_t>(m_CoveredPoints.size()));
   }
 
   /** Finds the new triangles that can't stay: where triangles have changed since the last check, or everywhere. */
@@ -624,9 +633,34 @@ private:
             near[corner] = tree.FindClosestPoint(corners[corner]).triangle;
           }
         }
-        isBad[id] |= TriangleProximity(corners, tree, m_MaximumError).IsNearSurface(near) ? 0 : 1;
+        TriangleProximity proximity(corners, tree, m_MaximumError);
+        if (!proximity.IsNearOneOf(near))
+        {
+          this->CollectOriginals(static_cast<TriangleId>(id), proximity.GetNearby());
+          isBad[id] |= proximity.IsNearSurface(near) ? 0 : 1;
+        }
       }
     });
+  }
+
+  /** Collects triangles of the original with a corner that a triangle covers, as far as there is room. */
+  void
+  CollectOriginals(TriangleId id, NearbyTriangles & nearby) const
+  {
+    const TriangleSurface & original = *m_Original->surface;
+    for (std::size_t n = m_FirstCovered[id]; n < m_FirstCovered[id + std::size_t{ 1 }]; ++n)
+    {
+      const PointId point = m_CoveredPoints[n];
+      m_Original->trianglesOfPoints.VisitTriangles(point, [&](TriangleId triangle) {
+        const auto & corners = original.GetTriangles()[triangle];
+        const auto * const first = std::find_if(
+          corners.begin(), corners.end(), [&](PointId corner) { return m_WitnessTriangles[corner] == id; });
+        if (*first == point) // one of several covered corners
+        {
+          nearby.Add(triangle, CornersOf(original, corners));
+        }
+      });
+    }
   }
 
   /** Whether the triangles that proved that a triangle of the original is near the state are all still there. */
@@ -759,8 +793,10 @@ private:
   // Empty if the distance has no limit.
   std::vector<TriangleId> m_NearPoints; ///< for each point of m_State, a triangle of the original nearby
   std::vector<TriangleId>
-    m_WitnessTriangles; ///< for each point of the original, the triangle of m_State that covers it
-  Flags m_IsCovered;    ///< for each triangle of the original, whether the triangles that cover its corners cover it
+    m_WitnessTriangles;                      ///< for each point of the original, the triangle of m_State that covers it
+  std::vector<PointId> m_CoveredPoints;      ///< points of the original, by the triangle that covers them
+  std::vector<std::uint32_t> m_FirstCovered; ///< for each triangle of m_State, its first of these, and the end
+  Flags m_IsCovered; ///< for each triangle of the original, whether the triangles that cover its corners cover it
 
   std::vector<ProximityProof> m_Proofs; ///< for each triangle of the original that is not covered: by versions
   std::vector<VersionId> m_Versions;    ///< of the triangles of m_State

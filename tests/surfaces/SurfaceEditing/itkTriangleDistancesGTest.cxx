@@ -1,4 +1,4 @@
-#include "itkFanDistances.h"
+#include "itkTriangleDistances.h"
 
 #include "detail/itkClosestOnTriangle.h"
 
@@ -64,4 +64,33 @@ TEST(FanDistances, AWitnessWithoutATriangleOfItsSheetIsFar)
   distances.SetWitness(0, {}, 1);
   distances.AddTriangle({ 1, 0, 0 }, { 0, 1, 0 }, 0);
   EXPECT_FALSE(distances.FindNearest(1e9, numbers));
+}
+
+TEST(NearbyTriangles, TheNearestIsThatOfASearchOneByOne)
+{
+  std::mt19937 random(6);
+  std::normal_distribution<double> normal(100.0, 1.0);
+  const auto position = [&] { return itk::PositionType{ normal(random), normal(random), normal(random) }; };
+  itk::NearbyTriangles nearby;
+  std::vector<itk::CornersType> triangles;
+  EXPECT_TRUE(nearby.IsEmpty());
+  for (std::uint32_t n = 0; n < itk::NearbyTriangles::Capacity; ++n)
+  {
+    const itk::PositionType a = position(), b = position();
+    triangles.push_back({ a, b, n % 5 == 0 ? itk::Mix(a, b, 0.3) : position() }); // some are flat
+    ASSERT_TRUE(nearby.Add(1000 + n, triangles.back()));
+    const itk::PositionType from = position();
+    double least = std::numeric_limits<double>::infinity();
+    for (const itk::CornersType & corners : triangles)
+    {
+      least = std::min(least, itk::SquaredDistance(from, itk::ClosestOnTriangle(from, corners)));
+    }
+    const auto nearest = nearby.FindNearest(from);
+    ASSERT_NEAR(nearest.squaredDistance, least, 1e-11);
+    ASSERT_NEAR(
+      itk::SquaredDistance(from, itk::ClosestOnTriangle(from, triangles[nearest.triangle - 1000])), least, 1e-11);
+  }
+  EXPECT_FALSE(nearby.Add(0, triangles.front()));
+  nearby.Clear();
+  EXPECT_TRUE(nearby.IsEmpty());
 }
