@@ -416,6 +416,41 @@ TEST_F(SurfaceFilesOfOthers, CountsOfVTPAreWholeNumbers)
   }
 }
 
+/** VTK's reader takes the digits at the beginning of a word, and leaves out what follows. */
+TEST_F(SurfaceFilesOfOthers, WordsOfVTPInTextAreNumbersOfTheirType)
+{
+  const auto fileWith = [](const std::string & coordinate, const std::string & corner, const std::string & offset) {
+    return "<!-- don't <DataArray type=\"Int32\"> --><VTKFile type=\"PolyData\" version=\"0.1\"><PolyData><FieldData>"
+           "<Array type=\"String\" Name=\"n\" NumberOfTuples=\"1\" format=\"ascii\">-61 200 0</Array>"
+           "<DataArray type=\"Float64\" Name=\"a\" NumberOfTuples=\"3\">nan 1e-300 -5</DataArray>"
+           "<DataArray type=\"UInt64\" Name=\"c\" NumberOfTuples=\"2\">18446744073709551615 0</DataArray></FieldData>"
+           "<Piece NumberOfPoints='4' NumberOfPolys='4'><Points><DataArray type='Float32' NumberOfComponents='3'>"
+           "0 0 0 1 0 0 0 +1 0\t0 0\n" +
+           coordinate +
+           "<InformationKey name=\"L2_NORM_RANGE\" location=\"vtkDataArray\" length=\"2\"><Value index=\"0\">0</Value>"
+           "<Value index=\"1\">1.5</Value></InformationKey></DataArray></Points><Polys>"
+           "<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 2 1 0 1 3 1 2 3 2 0 " +
+           corner + "</DataArray><DataArray format = \"ascii\" type = 'UInt8' Name=\"offsets\">3 6 9 " + offset +
+           "</DataArray></Polys></Piece></PolyData></VTKFile>";
+  };
+  for (const std::string right : { "1", "+1.5", "1e3", ".5", "1.", "-1e-60", "1 " })
+  {
+    EXPECT_EQ(this->Read("a.vtp", fileWith(right, "3", "12")).front().surface->GetNumberOfTriangles(), 4u) << right;
+  }
+  for (const std::string wrong : { "0x10", "1e40", "1.5.7", "1,5", "1e5d", "1 junk", "+-1", "1e", "&#49;" })
+  {
+    EXPECT_EQ(this->Refused("a.vtp", fileWith(wrong, "3", "12"), "Float32"), rhombic::FailureKind::Unreadable);
+  }
+  for (const std::string wrong : { "3.5", "3.0", "0x3", "3e0", "4294967299", "3 junk", "99999999999999999999" })
+  {
+    EXPECT_EQ(this->Refused("a.vtp", fileWith("1", wrong, "12"), "Int32"), rhombic::FailureKind::Unreadable);
+  }
+  for (const std::string wrong : { "12.5", "-12", "268", "12;" })
+  {
+    EXPECT_EQ(this->Refused("a.vtp", fileWith("1", "3", wrong), "UInt8"), rhombic::FailureKind::Unreadable);
+  }
+}
+
 /** VTK's reader runs in a child process: whatever the damage, there is a surface or a sentence. */
 TEST_F(SurfaceFilesOfOthers, AnyDamageOfVTPEndsInASurfaceOrASentence)
 {

@@ -2,6 +2,7 @@
 // polygons, and the names and colours of surfaces that WriteSurfaces() stores.
 
 #include "rhombicSandboxChild.h"
+#include "rhombicWording.h"
 
 #include <nlohmann/json.hpp>
 
@@ -23,6 +24,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -66,27 +68,96 @@ private:
 
 vtkStandardNewMacro(MessageCollector);
 
-/** Throws SandboxRefusal for a number of points, cells or components that is no whole number. VTK reads the digits at
- * its beginning. */
-void
-RequireWholeCounts(std::string_view xml)
+constexpr std::string_view Blanks = " \t\r\n\v\f";
+
+/** Whether a word of an array in text is a number of the array's type. True for types that VTK refuses. */
+bool
+IsNumberOfType(std::string_view word, std::string_view type)
 {
-  constexpr std::string_view blanks = " \t\r\n";
-  const std::string_view elements = xml.substr(0, xml.find("<AppendedData"));
-  for (std::size_t at = elements.find("NumberOf"); at != std::string_view::npos; at = elements.find("NumberOf", at + 1))
+  static const std::map<std::string_view, std::array<std::int64_t, 2>> limits{
+    { "Int8", { INT8_MIN, INT8_MAX } },    { "UInt8", { 0, UINT8_MAX } },         { "Int16", { INT16_MIN, INT16_MAX } },
+    { "UInt16", { 0, UINT16_MAX } },       { "Int32", { INT32_MIN, INT32_MAX } }, { "UInt32", { 0, UINT32_MAX } },
+    { "Int64", { INT64_MIN, INT64_MAX } }, { "UInt64", { 0, INT64_MAX } },        { "String", { INT8_MIN, UINT8_MAX } }
+  };
+  word.remove_prefix(word.size() > 1 && word[0] == '+' && word[1] != '-' ? 1 : 0);
+  if (type == "Float32" || type == "Float64")
   {
-    const std::size_t equals = std::min(elements.find_first_of("=\"'>", at), elements.size() - 1);
-    const std::size_t quote = std::min(elements.find_first_not_of(blanks, equals + 1), elements.size() - 1);
-    if (elements[equals] != '=' || (elements[quote] != '"' && elements[quote] != '\''))
+    const auto number = ToNumber<double>(word);
+    const bool isTooLarge =
+      type == "Float32" && number && std::isfinite(*number) && std::abs(*number) > std::numeric_limits<float>::max();
+    return number && !isTooLarge;
+  }
+  const auto found = limits.find(type);
+  const auto number = ToNumber<std::int64_t>(word);
+  return found == limits.end() || (number && *number >= found->second[0] && *number <= found->second[1]) ||
+         (type == "UInt64" && ToNumber<std::uint64_t>(word));
+}
+
+/** Takes the next attribute of an element, and the blanks around it, from \a text. Its name is empty behind the last,
+ * and where the text makes no sense: VTK refuses this. */
+std::pair<std::string_view, std::string_view>
+TakeAttribute(std::string_view & text)
+{
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n/"), text.size()));
+  const std::size_t quote = text.find_first_of("\"'>");
+  if (quote == std::string_view::npos || text[quote] == '>')
+  {
+    return {};
+  }
+  const std::string_view name = Trim(text.substr(0, std::min(text.find('='), quote)));
+  const std::string_view value = text.substr(quote + 1, text.find(text[quote], quote + 1) - quote - 1);
+  text.remove_prefix(std::min(quote + value.size() + 2, text.size()));
+  return { name, value };
+}
+
+/** Throws SandboxRefusal for a word of an array in text that is no number of the array's type. */
+void
+RequireNumbersOfType(std::string_view text, std::string_view type)
+{
+  while ((text.remove_prefix(std::min(text.find_first_not_of(Blanks), text.size())), !text.empty()))
+  {
+    const std::string_view word = text.substr(0, text.find_first_of(Blanks));
+    if (!IsNumberOfType(word, type))
     {
-      continue; // in a text
+      throw SandboxRefusal("one of its numbers of the type " + std::string(type) +
+                           " is none, or out of the type's range; the file is damaged, so export it again");
     }
-    const std::string_view value =
-      elements.substr(quote + 1, std::min(elements.find(elements[quote], quote + 1), elements.size()) - quote - 1);
-    if (value.empty() || value.find_first_not_of("0123456789") != std::string_view::npos)
+    text.remove_prefix(word.size());
+  }
+}
+
+/** Throws SandboxRefusal for a number of points, cells or components that is no whole number, and for numbers of arrays
+ * in text that are none. VTK reads the digits at their beginning. */
+void
+RequireNumbers(std::string_view xml)
+{
+  const std::string_view elements = xml.substr(0, xml.find("<AppendedData"));
+  for (std::size_t at = elements.find('<'); at < elements.size();)
+  {
+    const std::size_t inside = elements.substr(at, 4) == "<!--" ? elements.find("-->", at) : at + 1;
+    const std::size_t next = std::min(elements.find('<', inside), elements.size());
+    std::string_view text = elements.substr(at + 1, next - at - 1); // an element's start and the text behind it
+    at = next;
+    const std::string_view element = text.substr(0, text.find_first_of(" \t\r\n/>"));
+    if (element.empty() || element[0] == '!' || element[0] == '?') // an end, a comment, a declaration
     {
-      throw SandboxRefusal("its " + std::string(elements.substr(at, equals - at)) +
-                           " is no whole number; the file is damaged, so export it again");
+      continue;
+    }
+    text.remove_prefix(element.size());
+    std::map<std::string_view, std::string_view> attributes;
+    for (auto attribute = TakeAttribute(text); !attribute.first.empty(); attribute = TakeAttribute(text))
+    {
+      const auto & [name, value] = *attributes.insert(attribute).first;
+      if (name.rfind("NumberOf", 0) == 0 && (!ToNumber<std::int64_t>(value) || value[0] == '-'))
+      {
+        throw SandboxRefusal("its " + std::string(name) +
+                             " is no whole number; the file is damaged, so export it again");
+      }
+    }
+    const bool isArray = element == "DataArray" || element == "Array";
+    if (isArray && attributes.count("offset") == 0 && attributes["format"] != "binary" && !text.empty())
+    {
+      RequireNumbersOfType(text.substr(1), attributes["type"]);
     }
   }
 }
@@ -100,7 +171,7 @@ ReadPolyData(const SandboxInput & input)
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->ReadFromInputStringOn();
   const std::string xml(reinterpret_cast<const char *>(input.file), input.size);
-  RequireWholeCounts(xml);
+  RequireNumbers(xml);
   reader->SetInputString(xml);
   reader->Update();
   const vtkSmartPointer<vtkPolyData> polyData = reader->GetOutput();
