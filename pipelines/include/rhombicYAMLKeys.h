@@ -21,7 +21,26 @@ class YAMLMistake : public std::runtime_error
   using std::runtime_error::runtime_error;
 };
 
-/** Parses YAML, which is text in UTF-8. Throws YAMLMistake for other bytes, and YAML::Exception. */
+/** The place of the first character of a text in UTF-8 that YAML 1.2 forbids, or its end: control characters but tabs,
+ * line ends and U+0085; U+FFFE and U+FFFF. */
+inline std::size_t
+FindForbiddenInYAML(const std::string & text)
+{
+  for (std::size_t n = 0; n < text.size(); ++n)
+  {
+    const auto byte = static_cast<unsigned char>(text[n]);
+    const bool isControl = byte < ' ' ? byte != '\t' && byte != '\n' && byte != '\r' : byte == 0x7F;
+    const bool isC1 = byte == 0xC2 && static_cast<unsigned char>(text[n + 1]) < 0xA0 && text[n + 1] != '\x85';
+    if (isControl || isC1 || (byte == 0xEF && text[n + 1] == '\xBF' && static_cast<unsigned char>(text[n + 2]) >= 0xBE))
+    {
+      return n;
+    }
+  }
+  return text.size();
+}
+
+/** Parses YAML, which is text in UTF-8 without control characters. Throws YAMLMistake for others, and YAML::Exception.
+ */
 inline YAML::Node
 LoadYAML(const std::string & text)
 {
@@ -32,6 +51,12 @@ LoadYAML(const std::string & text)
   catch (const nlohmann::json::exception &)
   {
     throw YAMLMistake("is no text in UTF-8");
+  }
+  const auto forbidden = text.begin() + static_cast<std::ptrdiff_t>(FindForbiddenInYAML(text));
+  if (forbidden != text.end())
+  {
+    throw YAMLMistake("has a control character in line " +
+                      std::to_string(1 + std::count(text.begin(), forbidden, '\n')));
   }
   return YAML::Load(text);
 }

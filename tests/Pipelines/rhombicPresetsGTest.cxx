@@ -167,4 +167,32 @@ TEST(Presets, RefuseDamagedFiles)
   DescriptionOfFailure([] { rhombic::FindPreset("missing.yaml"); }, FailureKind::NotFound);
 }
 
+/** yaml-cpp takes characters that YAML forbids. */
+TEST(Presets, ControlCharactersAreRefusedWithTheirLine)
+{
+  const auto presetWith = [](const std::string & text) {
+    return "name: x\ndescription: \"a" + text + "b\"\nsurfaces: [{name: a, isovalue: 1}]\n";
+  };
+  for (const std::string wrong : { "\x01",
+                                   "\x0B",
+                                   "\x1F",
+                                   "\x7F",
+                                   "\xC2\x80",
+                                   "\xC2\x84",
+                                   "\xC2\x86",
+                                   "\xC2\x9F",
+                                   "\xEF\xBF\xBE",
+                                   "\xEF\xBF\xBF" })
+  {
+    const auto sentence =
+      DescriptionOfFailure([&] { rhombic::ParsePreset(presetWith(wrong), "broken.yaml"); }, FailureKind::Unreadable);
+    EXPECT_NE(sentence.find("control character in line 2"), std::string::npos) << sentence;
+  }
+  for (const std::string right :
+       { "\t", "\xC2\x85", "\xC2\xA0", "\xC3\x84", "\xEF\xBF\xBD", "\xEE\x80\x80", "\xF0\x9F\x98\x80", "\\x01" })
+  {
+    EXPECT_EQ(rhombic::ParsePreset(presetWith(right), "x.yaml").name, "x");
+  }
+}
+
 } // namespace
