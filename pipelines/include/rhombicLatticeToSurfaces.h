@@ -4,10 +4,14 @@
 #include "rhombicEnclosedParts.h"
 #include "rhombicEvents.h"
 #include "rhombicFCCImageFile.h"
+#include "rhombicFewerTrianglesInParts.h"
 #include "rhombicSurfaceRequest.h"
 
 #include "itkFCCIsosurfaceMode.h"
 
+#include <array>
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -18,6 +22,18 @@ namespace rhombic
 struct ExtractedSurface : SceneSurface
 {
   std::optional<EnclosedParts> enclosed; ///< for SurfaceRequest::Parts::Enclosed
+  std::optional<WholeSurface> whole;     ///< of which the surface has fewer triangles, with smooth normals
+};
+
+/** For isosurfaces that are only looked at: large ones come in fewer triangles, in slabs, and are never in memory as a
+ * whole. Which these are follows from the surfaces alone, so that pictures do not depend on the memory. */
+struct SurfaceViewing
+{
+  /** The distance in mm by which views of a surface in these bounds ({xmin, xmax, ymin, ...} in LPS mm) do not change.
+   */
+  std::function<double(const std::array<double, 6> & bounds)> findUnseen;
+  itk::SizeValueType mostPoints = 2'000'000; ///< of surfaces that keep all triangles
+  std::uintmax_t maximumMemory = 0;          ///< bytes for surfaces; 0: half of the free memory
 };
 
 /** Extracts a closed isosurface for each request, in their order; requests on the same side of their isovalues share
@@ -26,16 +42,19 @@ struct ExtractedSurface : SceneSurface
  *
  * \param grid the grid of the scan that the volume was made from; null for slanted scans
  * \param computesNormals whether points get normals, as in itk::FCCIsosurfaceFilter
+ * \param viewing not null for surfaces that are only looked at, of requests for all parts
  *
- * Throws Failure: Usage for a request without an isovalue (see ResolveIsovalues()) and for outermost parts below an
- * isovalue; Empty for a surface without triangles. */
+ * Throws Failure: Memory for a large surface that even in fewer triangles is more than is allowed; Usage for a request
+ * without an isovalue (see ResolveIsovalues()) and for outermost parts below an isovalue; Empty for a surface without
+ * triangles. */
 std::vector<ExtractedSurface>
 LatticeToSurfaces(const FCCVolume & volume,
                   const std::vector<SurfaceRequest> & requests,
                   itk::FCCIsosurfaceMode mode,
                   const Events & events,
                   const itk::ImageBase<3> * grid = nullptr,
-                  bool computesNormals = true);
+                  bool computesNormals = true,
+                  const SurfaceViewing * viewing = nullptr);
 
 } // namespace rhombic
 

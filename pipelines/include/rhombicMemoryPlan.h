@@ -5,6 +5,7 @@
 #include "rhombicMeshScan.h"
 #include "rhombicResampleScan.h"
 
+#include <filesystem>
 #include <string>
 
 namespace rhombic
@@ -14,11 +15,20 @@ namespace rhombic
  * What long work would take, found from the headers of a scan and, where it can be read in part, from some of its
  * slices, within seconds. Nothing is written. The texts are lines for a person: where the voxels will be, the lattice
  * and its slabs, surfaces and files, memory and time. Triangles and time are estimates, which noise and other programs
- * change. Both throw Failure as the work itself would before it begins, Memory for what does not fit. */
+ * change. All throw Failure as the work itself would before it begins, Memory for what does not fit. */
 
 /** MeshScan(). Surfaces are estimated for isovalues, and Otsu's threshold for those slices; not for labels. */
 std::string
 PlanMeshScan(const MeshScanSettings & settings, const Events & events);
+
+/** Surfaces of a scan that are drawn, as PlanMeshScan(). \param source as MakePictureSource() of DrawingPipelines has
+ * it
+ */
+std::string
+PlanPictures(const ScanSource & source,
+             const SurfaceSelection & surfaces,
+             const std::filesystem::path & picture,
+             const Events & events);
 
 /** ResampleScan(). */
 std::string

@@ -34,12 +34,19 @@ FindSlicePairs(const itk::Size<3> & size);
 
 /** Estimates the surfaces of requests with isovalues from edges of voxels that they cross: some 4 % from the number of
  * triangles of scans and phantoms, more where noise is most of the surface.
- * \param lattice what they are extracted from */
+ * \param lattice what they are extracted from
+ * \param mostTriangles of each surface: as ScanSource has it */
 MeshEstimate
 EstimateMesh(const SampledSlices & sample,
              const std::vector<SurfaceRequest> & requests,
              itk::FCCIsosurfaceMode mode,
-             const LatticeSettings & lattice);
+             const LatticeSettings & lattice,
+             double mostTriangles = 0.0);
+
+/** Throws Failure(Memory) for surfaces to draw that the memory (all that is free, without a limit) can't hold. Does
+ * nothing for a denoised scan, whose surfaces may be far smaller. */
+void
+CheckDrawnMesh(const MeshEstimate & mesh, const LatticeSettings & lattice);
 
 } // namespace rhombic
 

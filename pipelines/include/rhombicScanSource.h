@@ -28,8 +28,9 @@ struct ScanSource
 {
   std::filesystem::path path; ///< a scan, or a lattice volume that WriteFCCImage() wrote
   ScanReadOptions read;
-  LatticeSettings lattice; ///< for lattice volumes, only the denoising has an effect
-  bool streams = false;    ///< whether a lattice that does not fit is made in slabs, see ScanToLattice()
+  LatticeSettings lattice;    ///< for lattice volumes, only the denoising has an effect
+  bool streams = false;       ///< whether a lattice that does not fit is made in slabs, see ScanToLattice()
+  double mostTriangles = 0.0; ///< of isosurfaces that keep all: others are only looked at (SurfaceViewing); 0: all do
   /** Called with the facts of the headers, before the voxels of a scan are read; may be empty, and may throw. */
   std::function<void(const Scan & scan)> check;
   /** Called with what isosurfaces of a scan will be, before its lattice is made; may be empty, and may throw. Called if

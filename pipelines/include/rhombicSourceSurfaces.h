@@ -38,6 +38,7 @@ struct MeshedSurface
   itk::ImageBase<3>::Pointer grid;       ///< for isosurfaces: see LoadedSource
   std::optional<LabelSurface> label;     ///< for labels; its scene is empty
 
+  std::optional<WholeSurface> whole;          ///< for large isosurfaces in pictures: see ExtractedSurface
   std::optional<ExtractedSize> extracted;     ///< for surfaces of scans
   std::optional<IsosurfaceVolume> isosurface; ///< for isosurfaces in files: volume of the whole isosurface
 
@@ -77,6 +78,7 @@ struct SurfaceMaking
   SurfaceUse use;
   const Events & events;
   std::optional<itk::ImageRegion<3>> part = std::nullopt; ///< of the label map: see LabelSurfaceSettings::part
+  const SurfaceViewing * viewing = nullptr;               ///< for isosurfaces that are only looked at
 };
 
 /** Extracts isosurfaces and labels, in this order. Walls between labels are refined here, once for both sides. The

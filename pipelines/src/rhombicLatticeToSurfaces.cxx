@@ -3,6 +3,7 @@
 #include "rhombicEnclosedParts.h"
 #include "rhombicFailure.h"
 #include "rhombicEvents.h"
+#include "rhombicMemoryBudget.h"
 #include "rhombicScanToLattice.h"
 #include "rhombicWording.h"
 
@@ -11,6 +12,7 @@
 #include "itkTriangleSurfaceSolids.h"
 
 #include <algorithm>
+#include <map>
 
 namespace rhombic
 {
@@ -40,11 +42,57 @@ NoteParts(const std::string & name, const EnclosedParts & parts, const Events & 
   }
 }
 
+/** Large surfaces of one pass over a volume, in fewer triangles. */
+class LargeSurfaces : public itk::FCCSurfaceParts
+{
+public:
+  /** \param moveWalls MoveFCCWallsToBorder() of the volume */
+  LargeSurfaces(const SurfaceViewing * viewing, const std::function<void(itk::TriangleSurface &)> & moveWalls)
+    : m_Viewing(viewing)
+    , m_MoveWalls(moveWalls)
+  {}
+
+  bool
+  Begin(std::size_t surface, const std::vector<itk::SizeValueType> & firstPoints, const Bounds & bounds) override
+  {
+    const bool isLarge = m_Viewing != nullptr && firstPoints.back() > m_Viewing->mostPoints;
+    if (isLarge)
+    {
+      m_Surfaces.try_emplace(surface, firstPoints, m_Viewing->findUnseen(bounds), 1 + m_Viewing->mostPoints / 4);
+    }
+    return isLarge;
+  }
+
+  void
+  Take(std::size_t surface, itk::TriangleSurface & part, itk::SizeValueType end) override
+  {
+    FewerTrianglesInParts & fewer = m_Surfaces.at(surface);
+    m_MoveWalls(part);
+    fewer.Add(part, end);
+    std::uintmax_t bytes = 0;
+    for (const auto & [other, surfaceSoFar] : m_Surfaces)
+    {
+      bytes += surfaceSoFar.GetSurface().GetMemorySize();
+    }
+    RequireMemory(bytes,
+                  m_Viewing->maximumMemory,
+                  "A part of the surfaces, in the triangles that a picture of this size needs,",
+                  "choose a smaller --size, or a coarser lattice with --density");
+  }
+
+  std::map<std::size_t, FewerTrianglesInParts> m_Surfaces; ///< by their numbers in the pass
+
+private:
+  const SurfaceViewing * m_Viewing;
+  const std::function<void(itk::TriangleSurface &)> & m_MoveWalls;
+};
+
 /** Isosurfaces of a volume. */
 struct Isosurfaces
 {
   std::vector<itk::TriangleSurface::Pointer> surfaces;
-  itk::SizeValueType undefinedSamples = 0; ///< samples of the volume that are not a number
+  std::vector<std::optional<WholeSurface>> wholes; ///< of large surfaces
+  itk::SizeValueType undefinedSamples = 0;         ///< samples of the volume that are not a number
 };
 
 /** Extracts isosurfaces of volumes that lie on the same lattice. */
@@ -55,6 +103,7 @@ struct IsosurfaceExtraction
   const itk::ImageBase<3> * grid;
   bool computesNormals;
   unsigned int divisions; ///< of the volume, see FindDivisions()
+  const SurfaceViewing * viewing;
 
   /** One surface for each request, in their order; null for outermost parts. */
   Isosurfaces
@@ -62,22 +111,17 @@ struct IsosurfaceExtraction
   {
     Isosurfaces extracted;
     extracted.surfaces.resize(requests.size());
-    for (const bool insideIsBelow : { false, true })
-    {
-      std::visit([&](const auto & image) { this->ExtractSide(*image, requests, insideIsBelow, extracted); }, volume);
-    }
-    if (grid != nullptr)
-    {
+    extracted.wholes.resize(requests.size());
+    const std::function<void(itk::TriangleSurface &)> moveWalls = [&](itk::TriangleSurface & surface) {
       const auto cornerOf = [&volume](bool isHigh) {
         return std::visit([isHigh](const auto & image) { return FindFCCOuterCorner(*image, isHigh); }, volume);
       };
-      for (const auto & surface : extracted.surfaces)
-      {
-        if (surface)
-        {
-          MoveFCCWallsToBorder(*surface, *grid, cornerOf(false), cornerOf(true));
-        }
-      }
+      grid != nullptr ? MoveFCCWallsToBorder(surface, *grid, cornerOf(false), cornerOf(true)) : void();
+    };
+    for (const bool insideIsBelow : { false, true })
+    {
+      std::visit([&](const auto & image) { this->ExtractSide(*image, requests, insideIsBelow, moveWalls, extracted); },
+                 volume);
     }
     return extracted;
   }
@@ -111,6 +155,7 @@ struct IsosurfaceExtraction
   ExtractSide(const TImage & image,
               const std::vector<SurfaceRequest> & requests,
               bool insideIsBelow,
+              const std::function<void(itk::TriangleSurface &)> & moveWalls,
               Isosurfaces & extracted) const
   {
     std::vector<std::size_t> chosen;
@@ -137,11 +182,22 @@ struct IsosurfaceExtraction
     filter->SetInsideIsBelow(insideIsBelow);
     filter->SetComputeNormals(computesNormals);
     filter->SetNumberOfStreamDivisions(divisions);
+    LargeSurfaces large(viewing, moveWalls);
+    filter->SetParts(&large);
     filter->Update();
     for (std::size_t n = 0; n < chosen.size(); ++n)
     {
-      extracted.surfaces[chosen[n]] = filter->GetOutput(n);
-      extracted.surfaces[chosen[n]]->DisconnectPipeline();
+      itk::TriangleSurface::Pointer & surface = extracted.surfaces[chosen[n]];
+      const auto found = large.m_Surfaces.find(n);
+      if (found != large.m_Surfaces.end())
+      {
+        surface = found->second.TakeSurface();
+        extracted.wholes[chosen[n]] = found->second.GetWhole();
+        continue;
+      }
+      surface = filter->GetOutput(n);
+      surface->DisconnectPipeline();
+      moveWalls(*surface);
     }
     extracted.undefinedSamples = std::max(extracted.undefinedSamples, filter->GetNumberOfUndefinedSamples());
   }
@@ -155,7 +211,8 @@ LatticeToSurfaces(const FCCVolume & volume,
                   itk::FCCIsosurfaceMode mode,
                   const Events & events,
                   const itk::ImageBase<3> * grid,
-                  bool computesNormals)
+                  bool computesNormals,
+                  const SurfaceViewing * viewing)
 {
   for (const SurfaceRequest & request : requests)
   {
@@ -170,7 +227,9 @@ LatticeToSurfaces(const FCCVolume & volume,
                     "The outermost parts of " + request.name + " are of values above the threshold, not below it.");
     }
   }
-  const IsosurfaceExtraction extraction{ mode, events, grid, computesNormals, FindDivisions(volume) };
+  constexpr unsigned int divisionsOfViewed = 16; // so that parts of a lattice in memory are small, too
+  const unsigned int divisions = std::max(FindDivisions(volume), viewing != nullptr ? divisionsOfViewed : 1);
+  const IsosurfaceExtraction extraction{ mode, events, grid, computesNormals, divisions, viewing };
   Isosurfaces extracted = extraction.Extract(volume, requests);
   if (extracted.undefinedSamples > 0)
   {
@@ -203,8 +262,13 @@ LatticeToSurfaces(const FCCVolume & volume,
                     : "") +
           "; try another threshold (rhombic info suggests some).");
     }
-    surfaces.push_back({ { request.name, surface.GetPointer(), request.colour, request.opacity }, enclosed });
-    events.Note(request.name + ": " + Count(surface->GetNumberOfTriangles(), "triangle"));
+    const std::optional<WholeSurface> & whole = extracted.wholes[n];
+    surfaces.push_back({ { request.name, surface.GetPointer(), request.colour, request.opacity }, enclosed, whole });
+    const std::string triangles = Count(surface->GetNumberOfTriangles(), "triangle");
+    events.Note(request.name + ": " +
+                (whole ? Count(whole->triangles, "triangle") + ", drawn in " +
+                           std::to_string(surface->GetNumberOfTriangles()) + ", which give the same picture"
+                       : triangles));
   }
   return surfaces;
 }

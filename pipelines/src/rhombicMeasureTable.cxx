@@ -313,6 +313,17 @@ MeasureFinished(const Scan * scan, MeshedSurface & surface)
 {
   const itk::TriangleSurface & finished = *surface.scene.surface;
   surface.identity = Identify(surface.scene.name, finished);
+  if (const auto & whole = surface.whole)
+  {
+    surface.points = whole->points;
+    surface.triangles = whole->triangles;
+    surface.measures.volume = whole->volume;
+    surface.measures.area = whole->area;
+    surface.measures.bounds = whole->bounds;
+    surface.measures.centroid = whole->centroid;
+    surface.measures.longestDiameter = std::nan(""); // not known, nor the values inside
+    return;
+  }
   surface.points = finished.GetNumberOfPoints();
   surface.triangles = finished.GetNumberOfTriangles();
   surface.measures = scan != nullptr ? MeasureSurface(finished, *scan) : MeasureSurface(finished);

@@ -9,7 +9,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
+
+namespace fs = std::filesystem;
 
 namespace rhombic
 {
@@ -180,25 +183,35 @@ BytesOfTriangle(const std::filesystem::path & path)
   return found == bytes.end() ? 0.0 : found->second;
 }
 
+/** How surfaces of a scan are planned. */
+struct SurfacePlanning
+{
+  const ScanSource & source;
+  const SurfaceSelection & surfaces;
+  const fs::path & output;
+  std::function<void(const MeshEstimate & mesh)> check;
+  bool isMeasured; ///< whether the volume that isosurfaces enclose is estimated from the lattice
+};
+
 /** How often the lattice is made in slabs: by extraction, of what is above and of what is below isovalues, and for the
  * volume that each isosurface encloses. */
 unsigned int
-CountPasses(const MeshScanSettings & settings, const std::vector<SurfaceRequest> & requests)
+CountPasses(const SurfacePlanning & planning)
 {
+  const std::vector<SurfaceRequest> & requests = planning.surfaces.requests;
   const auto isBelow = [](const SurfaceRequest & request) { return request.insideIsBelow; };
   const auto below = std::count_if(requests.begin(), requests.end(), isBelow);
   const unsigned int sides = (below > 0 ? 1 : 0) + (below < static_cast<std::ptrdiff_t>(requests.size()) ? 1 : 0);
-  const unsigned int ofSide = settings.surfaces.mode == itk::FCCIsosurfaceMode::Lean ? 3 : 2;
-  const bool isEnclosed = settings.source.lattice.denoising.kind == Denoising::Kind::None;
+  const unsigned int ofSide = planning.surfaces.mode == itk::FCCIsosurfaceMode::Lean ? 3 : 2;
+  const bool isEnclosed = planning.isMeasured && planning.source.lattice.denoising.kind == Denoising::Kind::None;
   return sides * ofSide + (isEnclosed ? static_cast<unsigned int>(requests.size()) : 0);
 }
 
 /** The requests whose isovalues are numbers, or follow from some slices. */
 std::vector<SurfaceRequest>
-FindRequests(const MeshScanSettings & settings, const ScanImage & slices)
+FindRequests(const std::vector<SurfaceRequest> & requests, const ScanImage & slices)
 {
   const bool isRead = std::visit([](const auto & image) { return image.IsNotNull(); }, slices);
-  const std::vector<SurfaceRequest> & requests = settings.surfaces.requests;
   const bool needsOtsu =
     std::any_of(requests.begin(), requests.end(), [](const SurfaceRequest & request) { return !request.isovalue; });
   if (isRead && needsOtsu)
@@ -208,22 +221,21 @@ FindRequests(const MeshScanSettings & settings, const ScanImage & slices)
   return isRead ? requests : std::vector<SurfaceRequest>();
 }
 
-} // namespace
-
+/** The plan of surfaces in a file or picture. */
 std::string
-PlanMeshScan(const MeshScanSettings & settings, const Events & events)
+PlanSurfaces(const SurfacePlanning & planning, const Events & events)
 {
-  CheckOutputs(CheckMeshScan(settings), settings.source, settings.surfaces, InputsOf(settings.colourBy));
-  if (IsFCCImageFile(settings.source.path))
+  const ScanSource & source = planning.source;
+  if (IsFCCImageFile(source.path))
   {
-    return PlanLatticeVolume(settings.source, settings.mesh);
+    return PlanLatticeVolume(source, planning.output);
   }
-  const UnreadSource unread = OpenSource(settings.source);
-  const std::vector<SurfaceRequest> & requests = settings.surfaces.requests;
+  const UnreadSource unread = OpenSource(source);
+  const std::vector<SurfaceRequest> & requests = planning.surfaces.requests;
   const itk::Size<3> size = GeometryOf(unread.file.scan.image).GetLargestPossibleRegion().GetSize();
   std::vector<std::size_t> pairs = FindSlicePairs(size);
   const ScanImage slices = ReadSlicePairs(unread.file, pairs);
-  const std::vector<SurfaceRequest> known = FindRequests(settings, slices);
+  const std::vector<SurfaceRequest> known = FindRequests(requests, slices);
   MeshEstimate mesh;
   if (!known.empty())
   {
@@ -231,7 +243,8 @@ PlanMeshScan(const MeshScanSettings & settings, const Events & events)
     {
       pairs[n] = 2 * n; // of the slices that were read
     }
-    mesh = EstimateMesh({ slices, pairs, size[2] }, known, settings.surfaces.mode, settings.source.lattice);
+    mesh =
+      EstimateMesh({ slices, pairs, size[2] }, known, planning.surfaces.mode, source.lattice, source.mostTriangles);
   }
   std::string text = "voxels        " + DescribePlace(unread) + '\n';
   std::uintmax_t volumes = unread.CountInMemory();
@@ -241,28 +254,48 @@ PlanMeshScan(const MeshScanSettings & settings, const Events & events)
     LatticeStream stream;
     stream.surfaces = mesh.bytes;
     stream.mayBeInSlabs = MayBeInSlabs(requests);
-    stream.check = [&] { CheckMesh(mesh, settings); }; // nothing is refused of a mesh that is not known
-    plan = PlanLattice(unread, settings.source.lattice, stream, events);
+    stream.check = [&] { planning.check(mesh); }; // nothing is refused of a mesh that is not known
+    plan = PlanLattice(unread, source.lattice, stream, events);
     volumes += plan.peak - plan.scanBytes;
-    text += "lattice       " + DescribeLattice(plan, CountPasses(settings, requests)) + '\n';
+    text += "lattice       " + DescribeLattice(plan, CountPasses(planning)) + '\n';
   }
   if (!known.empty())
   {
-    const double bytes = mesh.triangles * BytesOfTriangle(settings.mesh);
+    const double bytes = mesh.triangles * BytesOfTriangle(planning.output);
+    text += "surfaces      some " + FormatNumber(mesh.triangles / 1e6, 2) + " million triangles" +
+            (bytes > 0.0 ? ", " + DescribeBytes(static_cast<std::uintmax_t>(bytes)) + " in " + planning.output.string()
+                         : "") +
+            '\n';
     text +=
-      "surfaces      some " + FormatNumber(mesh.triangles / 1e6, 2) + " million triangles" +
-      (bytes > 0.0 ? ", " + DescribeBytes(static_cast<std::uintmax_t>(bytes)) + " in " + settings.mesh.string() : "") +
-      '\n';
-    text += "time          " +
-            DescribeTime(EstimateSeconds(unread, plan, CountPasses(settings, requests), mesh.triangles)) + '\n';
+      "time          " + DescribeTime(EstimateSeconds(unread, plan, CountPasses(planning), mesh.triangles)) + '\n';
   }
   else
   {
     text += "surfaces      not known before the voxels are read\n";
   }
-  return text + "memory        " + DescribeMemory(volumes, settings.source.read.maximumMemory) +
+  return text + "memory        " + DescribeMemory(volumes, source.read.maximumMemory) +
          (known.empty() ? "" : ", then " + DescribeBytes(mesh.bytes.afterwards) + " for the surfaces") + '\n' +
-         DescribeUnwritten(settings.mesh);
+         DescribeUnwritten(planning.output);
+}
+
+} // namespace
+
+std::string
+PlanMeshScan(const MeshScanSettings & settings, const Events & events)
+{
+  CheckOutputs(CheckMeshScan(settings), settings.source, settings.surfaces, InputsOf(settings.colourBy));
+  const auto check = [&settings](const MeshEstimate & mesh) { CheckMesh(mesh, settings); };
+  return PlanSurfaces({ settings.source, settings.surfaces, settings.mesh, check, true }, events);
+}
+
+std::string
+PlanPictures(const ScanSource & source,
+             const SurfaceSelection & surfaces,
+             const fs::path & picture,
+             const Events & events)
+{
+  const auto check = [&source](const MeshEstimate & mesh) { CheckDrawnMesh(mesh, source.lattice); };
+  return PlanSurfaces({ source, surfaces, picture, check, false }, events);
 }
 
 std::string

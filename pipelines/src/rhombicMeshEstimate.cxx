@@ -2,6 +2,8 @@
 
 #include "itkFCCLattice.h"
 #include "rhombicForEachBlock.h"
+#include "rhombicMemoryBudget.h"
+#include "rhombicWording.h"
 
 #include <algorithm>
 #include <cmath>
@@ -128,6 +130,21 @@ DensityOf(const LatticeSettings & lattice, const itk::ImageBase<3>::SpacingType 
   return lattice.nested ? 0.5 : x > 0.0 ? voxel[0] * voxel[1] * voxel[2] / (2.0 * x * y * z) : lattice.density;
 }
 
+constexpr double BytesOfExtracted = 24.0; // of a triangle with its share of the points and their normals
+
+/** The memory of surfaces of which large ones are made in fewer triangles. */
+SurfaceBytes
+BytesForViews(const MeshEstimate & mesh, double mostTriangles)
+{
+  constexpr double bytesWhileSmoothed = 120.0; // of a triangle of a surface that keeps all
+  constexpr double bytesOfBlocks = 500e6;      // where triangles are made fewer
+  const bool isLarge = mesh.triangles > mostTriangles;
+  const double kept = std::min(mesh.triangles, mostTriangles);
+  const double bits = static_cast<double>(mesh.bytes.besideSlab) - mesh.triangles * BytesOfExtracted;
+  return { static_cast<std::uintmax_t>(bits + kept * BytesOfExtracted + (isLarge ? bytesOfBlocks : 0.0)),
+           static_cast<std::uintmax_t>(kept * bytesWhileSmoothed) };
+}
+
 } // namespace
 
 std::vector<std::size_t>
@@ -148,9 +165,9 @@ MeshEstimate
 EstimateMesh(const SampledSlices & sample,
              const std::vector<SurfaceRequest> & requests,
              itk::FCCIsosurfaceMode mode,
-             const LatticeSettings & lattice)
+             const LatticeSettings & lattice,
+             double mostTriangles)
 {
-  constexpr double bytesOfTriangle = 24.0;      // with its share of the points and their normals
   constexpr double bytesWithSearch = 100.0;     // while crossings are searched for
   constexpr std::size_t samplesOfPage = 50'000; // samples of the scan whose bits share a page of memory
   const auto & size = GeometryOf(sample.image).GetLargestPossibleRegion().GetSize();
@@ -186,9 +203,25 @@ EstimateMesh(const SampledSlices & sample,
     std::visit([&](const auto & image) { count(image, request.GetThreshold()); }, sample.image);
   }
   estimate.triangles *= std::pow(relativeDensity, 2.0 / 3.0);
-  estimate.bytes = { static_cast<std::uintmax_t>(estimate.triangles * bytesOfTriangle + bits),
+  estimate.bytes = { static_cast<std::uintmax_t>(estimate.triangles * BytesOfExtracted + bits),
                      static_cast<std::uintmax_t>(estimate.triangles * bytesWithSearch) };
+  if (mostTriangles > 0.0)
+  {
+    estimate.bytes = BytesForViews(estimate, mostTriangles * static_cast<double>(requests.size()));
+  }
   return estimate;
+}
+
+void
+CheckDrawnMesh(const MeshEstimate & mesh, const LatticeSettings & lattice)
+{
+  if (lattice.denoising.kind == Denoising::Kind::None)
+  {
+    RequireMemory(mesh.bytes.afterwards,
+                  lattice.maximumMemory > 0 ? lattice.maximumMemory : FreeMemory(),
+                  "Drawing surfaces of some " + FormatNumber(mesh.triangles / 1e6, 2) + " million triangles",
+                  "use a coarser lattice with --density, another threshold or a part of the scan");
+  }
 }
 
 } // namespace rhombic

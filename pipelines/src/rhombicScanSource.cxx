@@ -238,8 +238,11 @@ PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & sel
   if (source.streams)
   {
     const itk::Size<3> size = GeometryOf(ordered.image).GetLargestPossibleRegion().GetSize();
-    const MeshEstimate mesh =
-      EstimateMesh({ ordered.image, FindSlicePairs(size), size[2] }, loaded.requests, selection.mode, source.lattice);
+    const MeshEstimate mesh = EstimateMesh({ ordered.image, FindSlicePairs(size), size[2] },
+                                           loaded.requests,
+                                           selection.mode,
+                                           source.lattice,
+                                           source.mostTriangles);
     loaded.stream.check = [check = source.checkMesh, mesh] { check ? check(mesh) : void(); };
     loaded.stream.surfaces = mesh.bytes;
   }

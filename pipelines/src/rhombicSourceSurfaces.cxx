@@ -54,18 +54,26 @@ AddIsosurfaces(const SurfaceMaking & making,
 {
   const auto lattice = itk::ImageBase<3>::New();
   std::visit([&lattice](const auto & image) { lattice->CopyInformation(image); }, loaded.lattice);
-  auto extracted = LatticeToSurfaces(
-    loaded.lattice, loaded.requests, making.selection.mode, making.events, loaded.grid, computesNormals);
+  auto extracted = LatticeToSurfaces(loaded.lattice,
+                                     loaded.requests,
+                                     making.selection.mode,
+                                     making.events,
+                                     loaded.grid,
+                                     computesNormals,
+                                     making.viewing);
   for (std::size_t n = 0; n < extracted.size(); ++n)
   {
     MeshedSurface & surface = surfaces.emplace_back();
     surface.enclosed = extracted[n].enclosed;
+    surface.whole = extracted[n].whole;
     surface.scene = std::move(extracted[n]);
     surface.request = loaded.requests[n];
     surface.mode = making.selection.mode;
     surface.lattice = lattice;
     surface.grid = loaded.grid;
-    surface.extracted = MeasureExtracted(*surface.scene.surface);
+    surface.extracted = surface.whole
+                          ? ExtractedSize{ surface.whole->volume, surface.whole->area, surface.whole->triangles }
+                          : MeasureExtracted(*surface.scene.surface);
     if (making.use == SurfaceUse::Files)
     {
       surface.isosurface = EstimateIsosurface(loaded, *surface.request, surface.extracted->area, making.source.lattice);
@@ -208,7 +216,7 @@ FinishSurface(const SurfaceMaking & making, MeshedSurface & surface)
       settings.maximumMove = finish.smoothing.FindLargestMove(MeanSpacingOf(*surface.lattice));
       SmoothTriangleSurface(*finished, settings);
     }
-    if (!surface.forDrawing) // whose normals are smooth already
+    if (!surface.forDrawing && !surface.whole) // whose normals are smooth already
     {
       itk::SmoothTriangleSurfaceNormals(*finished);
     }

@@ -62,6 +62,7 @@ struct RenderOptions
   std::string title;
   std::string from;
   bool listsPresets = false;
+  bool isDryRun = false;
   std::string thumbnail;
 };
 
@@ -291,6 +292,11 @@ RenderSheetOf(const RenderOptions & options, const CommandContext & context)
   {
     return planned;
   }
+  if (options.isDryRun)
+  {
+    std::cout << PlanPage(settings, settings.page, context.console->MakeEvents());
+    return {};
+  }
   auto volume = FinishSource(options, context, settings.slices, settings.source);
   return RenderSheet(settings, context.console->MakeEvents(), std::move(volume));
 }
@@ -384,6 +390,11 @@ RenderPageOf(const RenderOptions & options, const CommandContext & context)
   {
     return planned;
   }
+  if (options.isDryRun)
+  {
+    std::cout << PlanPage(settings, settings.page, context.console->MakeEvents());
+    return {};
+  }
   auto volume = FinishSource(options, context, settings.slices, settings.source);
   return RenderPage(settings, context.console->MakeEvents(), std::move(volume));
 }
@@ -432,6 +443,11 @@ RenderPictures(const RenderOptions & options, const CommandContext & context)
   if (context.onlyChecks)
   {
     return planned;
+  }
+  if (options.isDryRun)
+  {
+    std::cout << PlanRenderScan(settings, context.console->MakeEvents());
+    return {};
   }
   std::vector<PlaneRequest> places = settings.slices;
   places.insert(places.end(), settings.planes.begin(), settings.planes.end());
@@ -562,7 +578,7 @@ Render(const RenderOptions & options, const CommandContext & context)
   std::vector<MadeFile> outputs = IsPagePath(options.picture) ? RenderPageOf(options, context)
                                   : options.isSheet           ? RenderSheetOf(options, context)
                                                               : RenderPictures(options, context);
-  if (!context.onlyChecks)
+  if (!context.onlyChecks && !options.isDryRun)
   {
     NoteOutputs("picture", outputs, *context.console);
   }
@@ -725,6 +741,13 @@ AddTables(RenderOptions & options, CommandSettings & command)
       "scroll",
       OfKind(SettingKind::Output) },
   };
+  static const SettingsTable<RenderOptions> run{
+    { "--dry-run",
+      &RenderOptions::isDryRun,
+      "print where voxels and lattice will be, slabs and passes, and the memory, triangles and time as estimates, and "
+      "stop; refused as the work would be",
+      OfKind(SettingKind::Run) },
+  };
   command.Add(ScanOptions::SourceTable(), options.scan);
   command.Add(files, options);
   command.Add(SurfaceOptions::Table(), options.surfaces);
@@ -734,6 +757,7 @@ AddTables(RenderOptions & options, CommandSettings & command)
   command.Add(LookTable(), options);
   command.Add(ScanOptions::LatticeTable(), options.scan);
   command.Add(ScanOptions::SidecarTable(), options.scan);
+  command.Add(run, options);
 }
 
 } // namespace

@@ -125,6 +125,14 @@ RenderScan(const RenderScanSettings & settings,
            const Events & events,
            std::optional<SourceVolume> volume = std::nullopt);
 
+/** What RenderScan() would take, without doing it: see rhombicMemoryPlan.h. Throws Failure, Usage for surface files. */
+std::string
+PlanRenderScan(const RenderScanSettings & settings, const Events & events);
+
+/** As PlanRenderScan(), of a page. */
+std::string
+PlanPage(const PictureSettings & settings, const std::filesystem::path & page, const Events & events);
+
 /** From a scan or surface files to a page. */
 struct RenderSheetSettings : PictureSettings
 {

@@ -8,6 +8,7 @@
 #include "rhombicGreyWindow.h"
 #include "rhombicLabelTable.h"
 #include "rhombicMeasureTable.h"
+#include "rhombicMemoryPlan.h"
 #include "rhombicSourceSurfaces.h"
 #include "rhombicSurfaceIO.h"
 #include "rhombicSurfaceReport.h"
@@ -81,6 +82,7 @@ AddSurface(const MeshedSurface & surface, PictureScene & scene)
 {
   const SurfaceMeasures & measures = surface.measures;
   scene.surfaces.push_back(surface.scene);
+  scene.isForViews = scene.isForViews || surface.whole;
   if (surface.forDrawing && surface.parts.IsNothing())
   {
     scene.surfaces.back().surface = surface.forDrawing;
@@ -150,14 +152,44 @@ AddSurfaces(std::vector<MeshedSurface> & surfaces, bool hasThresholds, PictureSc
   }
 }
 
+/** Whether isosurfaces are drawn as they are extracted. */
+bool
+AreLeftAsTheyAre(const PictureSource & source)
+{
+  const std::vector<SurfaceRequest> & requests = source.surfaces.requests;
+  return MayBeInSlabs(requests) && std::all_of(requests.begin(), requests.end(), [&](const SurfaceRequest & request) {
+           const SurfaceFinish finish = CombineFinish(request.finish, source.finish);
+           return finish.minimumVolume == 0.0 && !finish.keepsLargestPart && !finish.fillsCavities &&
+                  finish.smoothing.IsNothing();
+         });
+}
+
+/** The scan of pictures, whose lattice may be made in slabs. */
+struct StreamedSource
+{
+  ScanSource scan;
+  const SurfaceViewing * viewing; ///< null for surfaces that keep all triangles
+
+  StreamedSource(const PictureSource & source, const SurfaceViewing * viewingIfLeft)
+    : scan(source.scan)
+    , viewing(AreLeftAsTheyAre(source) ? viewingIfLeft : nullptr)
+  {
+    scan.streams = true;
+    scan.mostTriangles = viewing != nullptr ? 2.0 * static_cast<double>(viewing->mostPoints) : 0.0;
+    scan.checkMesh = [lattice = scan.lattice](const MeshEstimate & mesh) { CheckDrawnMesh(mesh, lattice); };
+  }
+};
+
 PictureScene
 MakeSceneOfScan(const PictureSource & source,
                 std::optional<SourceVolume> volume,
                 bool keepsScan,
                 const std::vector<PlaneRequest> & onlySlices,
+                const SurfaceViewing * viewing,
                 const Events & events)
 {
-  LoadedSource loaded = LoadSource(source.scan, source.surfaces, std::move(volume), events);
+  const StreamedSource streamed(source, viewing);
+  LoadedSource loaded = LoadSource(streamed.scan, source.surfaces, std::move(volume), events);
   PictureScene scene;
   SlicePart part = FindSlicePart(onlySlices, source, loaded);
   scene.places = std::move(part.places);
@@ -176,7 +208,8 @@ MakeSceneOfScan(const PictureSource & source,
     scene.unit = IsInHounsfieldUnits(*scene.scan) ? "HU" : ReadDicomExamination(*scene.scan).units;
   }
   loaded.scan.reset(); // frees memory for the surfaces
-  const SurfaceMaking making{ source.scan, source.surfaces, source.finish, SurfaceUse::Pictures, events, part.voxels };
+  const SurfaceMaking making{ source.scan, source.surfaces, source.finish,   SurfaceUse::Pictures,
+                              events,      part.voxels,     streamed.viewing };
   std::vector<MeshedSurface> surfaces = ExtractSource(making, loaded);
   std::optional<Scan> greys; // of a lattice volume, whose samples are no voxels: nothing is measured in them
   if (isLattice && keepsScan)
@@ -271,10 +304,11 @@ MakePictureScene(const PictureSource & source,
                  std::optional<SourceVolume> volume,
                  bool keepsScan,
                  const Events & events,
-                 const std::vector<PlaneRequest> & onlySlices)
+                 const std::vector<PlaneRequest> & onlySlices,
+                 const SurfaceViewing * viewing)
 {
   PictureScene scene = source.surfaceFiles.empty()
-                         ? MakeSceneOfScan(source, std::move(volume), keepsScan, onlySlices, events)
+                         ? MakeSceneOfScan(source, std::move(volume), keepsScan, onlySlices, viewing, events)
                          : MakeSceneOfFiles(source, events);
   std::vector<std::string> names;
   for (SceneSurface & surface : scene.surfaces)
@@ -287,6 +321,19 @@ MakePictureScene(const PictureSource & source,
     events.Note("warning: " + sentence);
   }
   return scene;
+}
+
+std::string
+PlanPictureScene(const PictureSource & source,
+                 const std::filesystem::path & output,
+                 const SurfaceViewing * viewing,
+                 const Events & events)
+{
+  if (!source.surfaceFiles.empty())
+  {
+    throw Failure(FailureKind::Usage, "--dry-run plans what is made of a scan, not of surface files; leave it out.");
+  }
+  return PlanPictures(StreamedSource(source, viewing).scan, source.surfaces, output, events);
 }
 
 void

@@ -5,6 +5,7 @@
 #include "rhombicDicomCapture.h"
 #include "rhombicNamePlaces.h"
 #include "rhombicPictureIO.h"
+#include "rhombicLatticeToSurfaces.h"
 #include "rhombicRenderPage.h"
 #include "rhombicSheet.h"
 #include "rhombicSurfaceRenderer.h"
@@ -38,22 +39,32 @@ struct PictureScene
   std::optional<ColourScale> scale;       ///< of the surfaces' points, if they are coloured by numbers
   std::vector<SceneSurface> drawnAsLines; ///< other surfaces, of which pages show the outlines alone
   std::vector<std::string> headings;      ///< of LegendRow::figures on pages
+  bool isForViews = false;                ///< whether a surface has fewer triangles already, see SurfaceViewing
   Report report;
 
   /** Of planes, by PlaneRequest::place, if they are not found from the surfaces. */
   std::map<std::string, Vector3> places;
 };
 
-/** Reads a source, and makes its surfaces. Throws Failure.
+/** Reads a source, and makes its surfaces, in slabs where the lattice does not fit. Throws Failure.
  * \param volume the scan's volume, if the caller has read the scan already
  * \param keepsScan whether the scan is needed after that
- * \param onlySlices if not empty, the scene is for these alone, and surfaces of labels may be missing elsewhere */
+ * \param onlySlices if not empty, the scene is for these alone, and surfaces of labels may be missing elsewhere
+ * \param viewing null for a scene whose surfaces are not only looked at */
 PictureScene
 MakePictureScene(const PictureSource & source,
                  std::optional<SourceVolume> volume,
                  bool keepsScan,
                  const Events & events,
-                 const std::vector<PlaneRequest> & onlySlices = {});
+                 const std::vector<PlaneRequest> & onlySlices = {},
+                 const SurfaceViewing * viewing = nullptr);
+
+/** Plans the work of MakePictureScene(). */
+std::string
+PlanPictureScene(const PictureSource & source,
+                 const std::filesystem::path & output,
+                 const SurfaceViewing * viewing,
+                 const Events & events);
 
 /** The box around surfaces, with a grid for slices where there is no scan. */
 SliceBox

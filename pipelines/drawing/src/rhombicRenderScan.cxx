@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 namespace fs = std::filesystem;
 
@@ -337,8 +338,9 @@ DrawViews(const RenderScanSettings & settings,
   const bool isTransparent = settings.render.style == PictureStyle::Transparent;
   std::vector<View> views = ViewsOf(settings);
   Scene scene;
-  scene.surfaces = settings.turntable > 0 ? SurfacesForViews(source.surfaces, settings.render, views)
-                                          : ShadedSurfaces(source.surfaces);
+  scene.surfaces = settings.turntable > 0 && !source.isForViews
+                     ? SurfacesForViews(source.surfaces, settings.render, views)
+                     : ShadedSurfaces(source.surfaces);
   scene.cuts = cuts;
   AddCaps(settings, source, scene);
   AddPlanes(settings, source, scene);
@@ -599,6 +601,51 @@ StagePictures(const std::vector<Picture> & pictures,
   }
 }
 
+/** An octahedron in a box, which is not larger in any view than a round surface in it. */
+itk::TriangleSurface::Pointer
+OctahedronIn(const std::array<double, 6> & bounds)
+{
+  const auto octahedron = itk::TriangleSurface::New();
+  for (std::size_t n = 0; n < bounds.size(); ++n)
+  {
+    itk::TriangleSurface::PointType & point = octahedron->GetPoints().emplace_back();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      point[axis] = static_cast<float>(0.5 * (bounds[2 * axis] + bounds[2 * axis + 1]));
+    }
+    point[n / 2] = static_cast<float>(bounds[n]);
+  }
+  octahedron->GetTriangles() = { { 0, 2, 4 }, { 1, 3, 5 } };
+  return octahedron;
+}
+
+/** How large isosurfaces are seen; nothing where pictures show more of them than views do, or are not fitted to them.
+ */
+std::optional<SurfaceViewing>
+ViewingOf(const RenderScanSettings & settings)
+{
+  const bool isOnlySeen =
+    settings.slices.empty() && settings.cuts.empty() && settings.focus.empty() && !settings.colourBy;
+  if (!isOnlySeen)
+  {
+    return std::nullopt;
+  }
+  SurfaceViewing viewing;
+  viewing.maximumMemory = settings.source.scan.lattice.maximumMemory;
+  viewing.findUnseen = [&settings](const std::array<double, 6> & bounds) {
+    const double unseen = settings.render.perspective ? 0.125 : 0.25; // pixels; what is near is larger in perspective
+    Scene scene;
+    scene.surfaces.emplace_back().surface = OctahedronIn(bounds);
+    double least = std::numeric_limits<double>::max();
+    for (const Projection & view : SurfaceRenderer::Plan(scene, settings.render, ViewsOf(settings)))
+    {
+      least = std::min(least, view.pixelSize);
+    }
+    return unseen * least;
+  };
+  return viewing;
+}
+
 } // namespace
 
 std::vector<View>
@@ -646,6 +693,20 @@ CheckRenderScan(const RenderScanSettings & settings)
   return outputs;
 }
 
+std::string
+PlanRenderScan(const RenderScanSettings & settings, const Events & events)
+{
+  CheckOutputs(CheckRenderScan(settings), settings.source.scan, settings.source.surfaces, InputsOf(settings.colourBy));
+  const std::optional<SurfaceViewing> viewing = ViewingOf(settings);
+  return PlanPictureScene(settings.source, settings.picture, viewing ? &*viewing : nullptr, events);
+}
+
+std::string
+PlanPage(const PictureSettings & settings, const fs::path & page, const Events & events)
+{
+  return PlanPictureScene(settings.source, page, nullptr, events);
+}
+
 std::vector<MadeFile>
 RenderScan(const RenderScanSettings & given, const Events & events, std::optional<SourceVolume> volume)
 {
@@ -673,11 +734,13 @@ RenderScan(const RenderScanSettings & given, const Events & events, std::optiona
                 "choose a smaller --size, or fewer of them");
   const bool needsScan = !settings.cuts.empty() || !settings.planes.empty() || !settings.slices.empty();
   const bool drawsSlicesAlone = !drawsViews && settings.slice.lightbox == 0;
+  const std::optional<SurfaceViewing> viewing = ViewingOf(settings);
   PictureScene scene = MakePictureScene(SourceOf(settings),
                                         std::move(volume),
                                         needsScan,
                                         events,
-                                        drawsSlicesAlone ? settings.slices : std::vector<PlaneRequest>());
+                                        drawsSlicesAlone ? settings.slices : std::vector<PlaneRequest>(),
+                                        viewing ? &*viewing : nullptr);
   events.Progress("rendering", 0.0);
   const std::vector<ClipPlane> cuts = ClipPlanesOf(settings, scene);
   std::vector<Picture> pictures;

@@ -167,6 +167,65 @@ TEST_P(FCCIsosurfaceStreaming, GivesTheSameBytesFromSlabs)
   }
 }
 
+/** Puts the parts of surfaces together. */
+class JoinedParts : public itk::FCCSurfaceParts
+{
+public:
+  bool
+  Begin(std::size_t surface, const std::vector<itk::SizeValueType> & firstPoints, const Bounds & bounds) override
+  {
+    m_FirstPoints[surface] = firstPoints;
+    m_Bounds[surface] = bounds;
+    return surface == 0;
+  }
+
+  void
+  Take(std::size_t surface, Surface & part, itk::SizeValueType end) override
+  {
+    const auto join = [](const auto & from, auto & to) { to.insert(to.end(), from.begin(), from.end()); };
+    Surface & joined = *m_Joined[surface];
+    join(part.GetPoints(), joined.GetPoints());
+    join(part.GetNormals(), joined.GetNormals());
+    join(part.GetTriangles(), joined.GetTriangles());
+    EXPECT_EQ(joined.GetNumberOfPoints(), m_FirstPoints[surface][end]);
+    ++m_Parts;
+  }
+
+  std::array<std::vector<itk::SizeValueType>, 2> m_FirstPoints;
+  std::array<Bounds, 2> m_Bounds;
+  std::array<Surface::Pointer, 2> m_Joined{ Surface::New(), Surface::New() };
+  unsigned int m_Parts = 0;
+};
+
+TEST_P(FCCIsosurfaceStreaming, PartsAreThoseOfTheWholeSurface)
+{
+  for (const float noise : { 0.0f, 3.0f })
+  {
+    const auto image = MakeRoughImage(7, OddRegion, noise);
+    const auto whole = MakeFilter(image, GetParam(), 1);
+    whole->Update();
+    for (const unsigned int divisions : { 1u, 5u, 1000u })
+    {
+      const auto source = MakeSource(image);
+      const auto filter = MakeFilter(source->GetOutput(), GetParam(), divisions);
+      JoinedParts parts;
+      filter->SetParts(&parts);
+      filter->Update();
+      EXPECT_EQ(parts.m_Parts, std::min(divisions, 33u)) << "planes with those around the image";
+      ExpectSameBytes(*parts.m_Joined[0], *whole->GetOutput(0));
+      ExpectSameBytes(*filter->GetOutput(1), *whole->GetOutput(1));
+      EXPECT_EQ(filter->GetOutput(0)->GetNumberOfPoints(), 0u);
+      const auto bounds = whole->GetOutput(0)->GetBounds();
+      for (std::size_t n = 0; n < bounds.size(); ++n)
+      {
+        const double outwards = (n % 2 == 0 ? bounds[n] - parts.m_Bounds[0][n] : parts.m_Bounds[0][n] - bounds[n]);
+        EXPECT_GE(outwards, 0.0) << n;
+        EXPECT_LE(outwards, 3.0) << n;
+      }
+    }
+  }
+}
+
 TEST_P(FCCIsosurfaceStreaming, VolumesOfAnySizeGiveTheSameBytes)
 {
   std::mt19937 random(11);

@@ -5,6 +5,7 @@
 #include "itkFCCImage.h"
 #include "itkFCCRowKernels.h"
 #include "itkFCCSurfaceExtractor.h"
+#include "itkFCCSurfaceParts.h"
 #include "itkInputSamples.h"
 #include "itkProcessObject.h"
 #include "itkRecyclingMemory.h"
@@ -208,6 +209,18 @@ public:
   /** In how many slabs the input is read, one after the other, at most one for each plane. Default 1: all at once. */
   itkSetClampMacro(NumberOfStreamDivisions, unsigned int, 1, std::numeric_limits<unsigned int>::max());
   itkGetConstMacro(NumberOfStreamDivisions, unsigned int);
+
+  /** Takes surfaces, closed ones, in parts, a slab after the other, so that none is in memory as a whole; the filter's
+   * output of such a surface is empty. Must outlive the update. Default null: none is. */
+  void
+  SetParts(FCCSurfaceParts * parts)
+  {
+    if (m_Parts != parts)
+    {
+      m_Parts = parts;
+      this->Modified();
+    }
+  }
 
 protected:
   FCCIsosurfaceFilter()
@@ -460,24 +473,50 @@ private:
     countReadsSamples ? this->ForEachLoadedSlab(planes, around, shareOfCount, count)
                       : this->ForEachSlab({ 0, planes }, shareOfCount, count, { 1, MostPlanes });
 
+    std::vector<bool> areInParts(extractors.size());
     for (std::size_t n = first; n < last; ++n)
     {
       FCCSurfaceExtractor & extractor = *extractors[n - first];
       this->Resolve(extractor, shareOfResolve / static_cast<float>(last - first));
-      this->Allocate(*this->GetOutput(n), extractor.GetNumberOfPoints(), extractor.GetMostTriangles());
+      const bool isInParts =
+        m_Parts != nullptr && m_Closed && m_Parts->Begin(n, extractor.GetFirstPoints(), this->BoundsOf(signs[n]));
+      areInParts[n - first] = isInParts;
+      this->Allocate(*this->GetOutput(n), extractor, isInParts);
     }
     scratch.ReleaseSpare(); // filling needs blocks of other sizes
+    const auto forEachPart = [&](const auto & use) {
+      for (std::size_t n = first; n < last; ++n)
+      {
+        areInParts[n - first] ? use(n, *extractors[n - first], *this->GetOutput(n)) : void();
+      }
+    };
     this->ForEachLoadedSlab(
-      planes, around, share - shareOfCount - shareOfResolve, [&](SizeValueType begin, SizeValueType end) {
+      planes,
+      around,
+      share - shareOfCount - shareOfResolve,
+      [&](SizeValueType begin, SizeValueType end) {
         for (std::size_t n = first; n < last; ++n)
         {
           extractors[n - first]->Fill(begin, end, *this->GetOutput(n));
         }
+      },
+      [&](const Planes & loaded) {
+        forEachPart([&](std::size_t, FCCSurfaceExtractor & extractor, TriangleSurface & part) {
+          extractor.SetPlanes(loaded.begin, loaded.end);
+          this->Allocate(part, extractor, false);
+        });
+      },
+      [&](const Planes & filled) {
+        forEachPart([&](std::size_t n, FCCSurfaceExtractor & extractor, TriangleSurface & part) {
+          extractor.Finish(part);
+          m_Parts->Take(n, part, filled.end);
+          part.Initialize();
+        });
       });
     for (std::size_t n = first; n < last; ++n)
     {
       TriangleSurface & surface = *this->GetOutput(n);
-      extractors[n - first]->Finish(surface);
+      areInParts[n - first] ? void() : extractors[n - first]->Finish(surface);
       if (!m_Closed)
       {
         surface.RemoveUnusedPoints(); // on edges of no cell, at the ragged ends of rows
@@ -486,9 +525,44 @@ private:
     }
   }
 
-  void
-  Allocate(TriangleSurface & surface, SizeValueType points, SizeValueType triangles) const
+  /** A box around a surface, with a site around the sites inside. */
+  FCCSurfaceParts::Bounds
+  BoundsOf(const FCCSigns & signs) const
   {
+    const auto found = signs.FindBounds();
+    if (!found)
+    {
+      return {};
+    }
+    const auto & start = this->GetRegion().GetIndex();
+    constexpr double largest = std::numeric_limits<double>::max();
+    FCCSurfaceParts::Bounds bounds{ largest, -largest, largest, -largest, largest, -largest };
+    for (unsigned int corner = 0; corner < 8; ++corner)
+    {
+      std::array<double, 3> coordinates{};
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        const bool isHigh = (corner >> axis & 1) != 0;
+        const auto margin = static_cast<IndexValueType>(FCCSurfaceExtractor::GetMargin(m_Mode, m_Closed));
+        const auto index = static_cast<double>(static_cast<IndexValueType>((*found)[2 * axis + (isHigh ? 1 : 0)]) -
+                                               margin + start[axis] + (isHigh ? 1 : -1));
+        coordinates[axis] = axis == 0 ? 2.0 * index + (isHigh ? 1.0 : 0.0) : index;
+      }
+      const auto point = this->GetInput()->template TransformLatticeToPhysicalPoint<double>(coordinates);
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        bounds[2 * axis] = std::min(bounds[2 * axis], point[axis]);
+        bounds[2 * axis + 1] = std::max(bounds[2 * axis + 1], point[axis]);
+      }
+    }
+    return bounds;
+  }
+
+  /** \param onlyChecks whether the surface stays empty */
+  void
+  Allocate(TriangleSurface & surface, const FCCSurfaceExtractor & extractor, bool onlyChecks) const
+  {
+    const SizeValueType points = extractor.GetNumberOfPoints();
     if (points > std::numeric_limits<std::uint32_t>::max())
     {
       itkExceptionMacro("The surface would have "
@@ -497,9 +571,12 @@ private:
                            "extract from a smaller region.");
     }
     surface.Initialize();
-    surface.GetPoints().resize(points);
-    surface.GetNormals().resize(m_ComputeNormals ? points : 0);
-    surface.GetTriangles().resize(triangles);
+    if (!onlyChecks)
+    {
+      surface.GetPoints().resize(points);
+      surface.GetNormals().resize(m_ComputeNormals ? points : 0);
+      surface.GetTriangles().resize(extractor.GetMostTriangles());
+    }
   }
 
   /** The units of progress of the whole update. */
@@ -591,20 +668,27 @@ private:
   }
 
   /** Loads one division of \a planes after the other, with the planes \a around it, and works at each as ForEachSlab()
-   * does. */
+   * does. \param before and \param after are called for each division */
   template <typename TWork>
   void
-  ForEachLoadedSlab(SizeValueType planes, SizeValueType around, float share, const TWork & work)
+  ForEachLoadedSlab(SizeValueType planes,
+                    SizeValueType around,
+                    float share,
+                    const TWork & work,
+                    const std::function<void(const Planes &)> & before = {},
+                    const std::function<void(const Planes &)> & after = {})
   {
     for (SizeValueType begin = 0; begin < planes;)
     {
       const Planes division = this->FindDivision(planes, begin);
       m_WorkProgress->CheckAbort();
       this->Load(this->RegionOf(division, planes, around));
+      before ? before(division) : void();
       const SizeValueType count = division.end - begin;
       const SizeValueType least = around > 0 && !this->IsInMemory() ? LeastPlanesOfSlab : 1;
       this->ForEachSlab(
         division, share * static_cast<float>(count) / static_cast<float>(planes), work, { least, MostPlanes });
+      after ? after(division) : void();
       begin = division.end;
     }
   }
@@ -643,6 +727,7 @@ private:
   bool m_InsideIsBelow{ false };
   bool m_Closed{ true };
   unsigned int m_NumberOfStreamDivisions{ 1 };
+  FCCSurfaceParts * m_Parts{ nullptr };
   bool m_ReleasesInput{ false };
   std::optional<WorkProgress> m_WorkProgress;
 };

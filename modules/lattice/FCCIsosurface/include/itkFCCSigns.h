@@ -5,9 +5,12 @@
 #include "itkFCCLattice.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
+#include <iterator>
 #include <memory>
 #include <new>
+#include <optional>
 
 namespace itk
 {
@@ -85,6 +88,34 @@ public:
     {
       std::copy_n(words, m_NumberOfWords, m_Words.get() + (k * m_Height + j) * (m_NumberOfWords + 1));
     }
+  }
+
+  /** The first and the last column, row and plane with a site inside; nothing where no site is. */
+  std::optional<std::array<SizeValueType, 6>>
+  FindBounds() const
+  {
+    std::array<SizeValueType, 6> bounds{ m_Width, 0, m_Height, 0, m_Depth, 0 };
+    for (SizeValueType n = 0; n < m_Height * m_Depth; ++n)
+    {
+      const WordType * const words = this->GetRow(n % m_Height, n / m_Height);
+      const auto isUsed = [](WordType word) { return word != 0; };
+      const WordType * const end = words + m_NumberOfWords;
+      const WordType * const first = std::find_if(words, end, isUsed);
+      if (first != end)
+      {
+        const WordType * const last =
+          std::find_if(std::reverse_iterator(end), std::reverse_iterator(first), isUsed).base();
+        const auto lowest = static_cast<SizeValueType>(first - words) * FCCBits::WordBits;
+        const auto beyond = static_cast<SizeValueType>(last - words) * FCCBits::WordBits;
+        bounds = { std::min(bounds[0], lowest + static_cast<SizeValueType>(__builtin_ctzll(*first))),
+                   std::max(bounds[1], beyond - 1 - static_cast<SizeValueType>(__builtin_clzll(last[-1]))),
+                   std::min(bounds[2], n % m_Height),
+                   std::max(bounds[3], n % m_Height),
+                   std::min(bounds[4], n / m_Height),
+                   n / m_Height };
+      }
+    }
+    return bounds[0] < m_Width ? std::optional(bounds) : std::nullopt;
   }
 
 private:

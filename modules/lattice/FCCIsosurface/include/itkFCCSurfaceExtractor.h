@@ -64,7 +64,8 @@ struct FCCScalarField
  * Count all planes of the signs once, in slabs of any size and order; Resolve once; give the surface room for the
  * points and triangles there may be, and for as many normals, or none; Fill all planes once, in any slabs; Finish once.
  * The bytes do not depend on how planes are divided into slabs. Any number of threads may Count, and later Fill,
- * different slabs at once; the rest is for one thread.
+ * different slabs at once; the rest is for one thread. After SetPlanes(), which may be called again and again, a
+ * surface has room for some planes alone, which are filled and finished.
  *
  * \ingroup FCCIsosurface
  */
@@ -114,18 +115,34 @@ public:
     this->SumUp();
   }
 
-  /** The number of points of the surface, known once resolved. */
+  /** The number of the first point of each plane, and that of all points, known once resolved. */
+  const std::vector<SizeValueType> &
+  GetFirstPoints() const
+  {
+    return m_FirstPoint;
+  }
+
+  /** Chooses the planes whose points and triangles the surface to fill has: at first all. Triangles have the numbers
+   * that points have in the whole surface, and may use points of the planes beside them. For closed surfaces. */
+  void
+  SetPlanes(SizeValueType begin, SizeValueType end)
+  {
+    m_Begin = begin;
+    m_End = end;
+  }
+
+  /** The number of points of these planes, known once resolved. */
   SizeValueType
   GetNumberOfPoints() const
   {
-    return m_FirstPoint.back();
+    return m_FirstPoint[m_End] - m_FirstPoint[m_Begin];
   }
 
-  /** At least the number of triangles of the surface, known once resolved. */
+  /** At least the number of triangles of these planes, known once resolved. */
   SizeValueType
   GetMostTriangles() const
   {
-    return m_FirstTriangle.back();
+    return m_FirstTriangle[m_End] - m_FirstTriangle[m_Begin];
   }
 
   /** Makes the points and triangles of planes. */
@@ -143,16 +160,33 @@ protected:
     , m_Field(field)
     , m_FirstPoint(signs.GetDepth() + 1)
     , m_FirstTriangle(signs.GetDepth() + 1)
+    , m_End(signs.GetDepth())
   {}
 
   /** Turns the counts of points and triangles into the numbers before each plane. */
   void
   SumUp();
 
+  /** Where the surface to fill has a point, of whose number in the whole surface it is told. */
+  SizeValueType
+  PlaceOfPoint(SizeValueType number) const
+  {
+    return number - m_FirstPoint[m_Begin];
+  }
+
+  /** As PlaceOfPoint(), of the first triangle of plane \a k. */
+  SizeValueType
+  PlaceOfTriangles(SizeValueType k) const
+  {
+    return m_FirstTriangle[k] - m_FirstTriangle[m_Begin];
+  }
+
   const FCCSigns & m_Signs;
   FCCScalarField m_Field;
   std::vector<SizeValueType> m_FirstPoint;    ///< by plane: the count until Resolve(); at the end the sum
   std::vector<SizeValueType> m_FirstTriangle; ///< the same for triangles, or for the most there can be
+  SizeValueType m_Begin = 0;                  ///< the planes of the surface to fill
+  SizeValueType m_End;                        ///< and the plane behind them
 };
 
 } // namespace itk

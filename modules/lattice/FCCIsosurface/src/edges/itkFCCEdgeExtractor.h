@@ -57,7 +57,7 @@ public:
       this->FillPoints(k, inPlane[1], between[1], field, surface);
       this->FillTriangles(k,
                           { { &inPlane[0], &inPlane[1], &inPlane[2] }, { &between[0], &between[1] } },
-                          surface.GetTriangles().data() + m_FirstTriangle[k]);
+                          surface.GetTriangles().data() + this->PlaceOfTriangles(k));
       std::rotate(std::begin(inPlane), std::begin(inPlane) + 1, std::end(inPlane));
       std::swap(between[0], between[1]);
     }
@@ -125,12 +125,13 @@ private:
     }
     for (const FCCCutEdges * const edges : { &inPlane, &between })
     {
+      const SizeValueType first = this->PlaceOfPoint(edges->GetFirstId());
       m_EdgePoints.Place(m_Signs,
                          *edges,
                          k,
                          field,
-                         surface.GetPoints().data() + edges->GetFirstId(),
-                         hasNormals ? surface.GetNormals().data() + edges->GetFirstId() : nullptr);
+                         surface.GetPoints().data() + first,
+                         hasNormals ? surface.GetNormals().data() + first : nullptr);
     }
   }
 

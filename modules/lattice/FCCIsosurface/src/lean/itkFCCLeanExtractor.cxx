@@ -163,7 +163,7 @@ FCCLeanExtractor::Fill(SizeValueType begin, SizeValueType end, TriangleSurface &
   {
     planes.Find(begin - 1, findNearerEnds);
   }
-  TriangleSurface::TriangleType * const triangles = surface.GetTriangles().data() + m_FirstTriangle[begin];
+  TriangleSurface::TriangleType * const triangles = surface.GetTriangles().data() + this->PlaceOfTriangles(begin);
   SizeValueType filled = 0;
   planes.Find(begin, findNearerEnds, m_FirstPoint[begin]);
   for (SizeValueType k = begin; k < end; ++k)
@@ -173,13 +173,14 @@ FCCLeanExtractor::Fill(SizeValueType begin, SizeValueType end, TriangleSurface &
     {
       field.LoadGradients(near);
     }
+    const SizeValueType place = this->PlaceOfPoint(m_FirstPoint[k]);
     PlaceVertices(m_Field,
                   m_Signs,
                   planes.Get(k),
                   k,
                   field,
-                  surface.GetPoints().data() + m_FirstPoint[k],
-                  surface.HasNormals() ? surface.GetNormals().data() + m_FirstPoint[k] : nullptr,
+                  surface.GetPoints().data() + place,
+                  surface.HasNormals() ? surface.GetNormals().data() + place : nullptr,
                   m_Field.closed ? nullptr : m_AreOutside.data() + m_FirstPoint[k]);
     if (k + 1 < m_Signs.GetDepth())
     {
@@ -194,9 +195,9 @@ FCCLeanExtractor::Finish(TriangleSurface & surface)
 {
   auto & triangles = surface.GetTriangles();
   auto end = triangles.begin();
-  for (SizeValueType k = 0; k < m_Signs.GetDepth(); ++k)
+  for (SizeValueType k = m_Begin; k < m_End; ++k)
   {
-    const auto first = triangles.begin() + static_cast<std::ptrdiff_t>(m_FirstTriangle[k]);
+    const auto first = triangles.begin() + static_cast<std::ptrdiff_t>(this->PlaceOfTriangles(k));
     const auto last = first + static_cast<std::ptrdiff_t>(m_Filled[k]);
     end = first == end ? last : std::copy(first, last, end);
   }
