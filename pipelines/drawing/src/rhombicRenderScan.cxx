@@ -633,7 +633,7 @@ ViewingOf(const RenderScanSettings & settings)
   SurfaceViewing viewing;
   viewing.maximumMemory = settings.source.scan.lattice.maximumMemory;
   viewing.findUnseen = [&settings](const std::array<double, 6> & bounds) {
-    const double unseen = settings.render.perspective ? 0.125 : 0.25; // pixels; what is near is larger in perspective
+    const double unseen = settings.render.perspective ? 0.05 : 0.1; // pixels; what is near is larger in perspective
     Scene scene;
     scene.surfaces.emplace_back().surface = OctahedronIn(bounds);
     double least = std::numeric_limits<double>::max();

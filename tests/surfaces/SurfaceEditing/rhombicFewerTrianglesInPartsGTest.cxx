@@ -112,8 +112,10 @@ TEST(FewerTrianglesInParts, AreClosedAndFewAndMeasuredBefore)
     FewerTrianglesInParts fewer(ball.firstPoints, 0.1, pointsOfBlock);
     ball.AddTo(fewer, 10);
     const Surface & surface = fewer.GetSurface();
-    EXPECT_TRUE(itk::ComputeTriangleSurfaceTopology(surface).IsWatertight());
-    EXPECT_EQ(itk::ComputeTriangleSurfaceTopology(surface).eulerCharacteristic, 2);
+    const auto topology = itk::ComputeTriangleSurfaceTopology(surface);
+    EXPECT_EQ(topology.boundaryEdges, 0u);
+    EXPECT_EQ(topology.components, 1u);
+    EXPECT_EQ(topology.unusedPoints, 0u);
     EXPECT_LT(surface.GetNumberOfTriangles(), ball.surface->GetNumberOfTriangles() / 4);
     EXPECT_NEAR(ComputeTriangleSurfaceVolume(surface) / ComputeTriangleSurfaceVolume(*ball.surface), 1.0, 2e-3);
     const rhombic::WholeSurface whole = fewer.GetWhole();

@@ -24,6 +24,32 @@ Append(const TContainer & from, std::size_t begin, std::size_t end, TContainer &
     to.end(), from.begin() + static_cast<std::ptrdiff_t>(begin), from.begin() + static_cast<std::ptrdiff_t>(end));
 }
 
+/** Fewer triangles of a sheet, but for those whose corners have normals that differ so much that they would be seen to
+ * be larger. */
+itk::TriangleSurface::TrianglesContainer
+SimplifyShaded(const itk::TriangleSurface & surface,
+               const itk::TriangleSurface::TrianglesContainer & triangles,
+               double distance)
+{
+  constexpr float leastCosine = 0.97f; // of 14 degrees
+  itk::TriangleSurface::TrianglesContainer bent;
+  itk::TriangleSurface::TrianglesContainer others;
+  for (const auto & triangle : triangles)
+  {
+    bool isBent = false;
+    for (std::size_t corner = 0; surface.HasNormals() && corner < 3; ++corner)
+    {
+      const auto & one = surface.GetNormals()[triangle[corner]];
+      const auto & next = surface.GetNormals()[triangle[(corner + 1) % 3]];
+      isBent = isBent || one[0] * next[0] + one[1] * next[1] + one[2] * next[2] < leastCosine;
+    }
+    (isBent ? bent : others).push_back(triangle);
+  }
+  others = itk::SimplifySheetForRendering(surface.GetPoints(), others, distance);
+  Append(bent, 0, bent.size(), others);
+  return others;
+}
+
 /** Erases the first elements, and the room for them. */
 template <typename TContainer>
 void
@@ -75,9 +101,7 @@ FewerTrianglesInParts::Add(const itk::TriangleSurface & part, itk::SizeValueType
     SmoothTriangleSurfaceNormals(*window.surface);
     this->Measure(window, m_Block);
     this->DropPlanes(endOfBlock);
-    this->Join(window,
-               itk::SimplifySheetForRendering(std::as_const(*window.surface).GetPoints(), window.ofBlock, m_Distance),
-               endOfBlock);
+    this->Join(window, SimplifyShaded(*window.surface, window.ofBlock, m_Distance), endOfBlock);
     ++m_Block;
     ++m_BlocksTogether;
     const bool isLast = m_Block + 1 == m_Planes.size();
@@ -215,7 +239,7 @@ FewerTrianglesInParts::SimplifyTogether()
     Triangles together;
     Append(triangles, m_TrianglesBefore, triangles.size(), together);
     triangles.resize(m_TrianglesBefore);
-    together = itk::SimplifySheetForRendering(points, together, m_Distance);
+    together = SimplifyShaded(*m_Joined, together, m_Distance);
     std::vector<std::uint32_t> numbers(points.size() - m_PointsBefore, 0); // 1 for those that are used
     const auto forEachPoint = [&](const auto & use) {
       for (auto & triangle : together)
