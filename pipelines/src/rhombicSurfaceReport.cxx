@@ -200,6 +200,10 @@ ReportMeshedSurface(const MeshedSurface & surface)
   Report report{ { "name", surface.scene.name }, { "measures", ReportMeasures(surface) } };
   AddStep("label", surface.label, report);
   AddStep("enclosed", surface.enclosed, report);
+  if (surface.whole)
+  {
+    report["drawnTriangles"] = surface.scene.surface->GetNumberOfTriangles();
+  }
   if (!surface.parts.IsNothing())
   {
     report["parts"] = { { "filled", ReportShells(surface.parts.filled) },

@@ -8,6 +8,7 @@
 #include "rhombicResampleScan.h"
 #include "rhombicScanReader.h"
 #include "rhombicScanWriter.h"
+#include "rhombicSourceSurfaces.h"
 #include "rhombicTemporaryFolder.h"
 
 #include "itkImageRegionIteratorWithIndex.h"
@@ -381,6 +382,50 @@ TEST_F(LargeScan, PlansTellWhatWorkThenDoes)
   const std::string resamplingPlan = rhombic::PlanResampleScan(resampling, {});
   EXPECT_NE(resamplingPlan.find("slabs of"), std::string::npos) << resamplingPlan;
   EXPECT_FALSE(fs::exists(resampling.volume));
+}
+
+TEST_F(LargeScan, SurfacesThatAreOnlySeenAreTheSameInSlabs)
+{
+  const rhombic::MeshScanSettings settings = this->SettingsOf(this->Write<std::int16_t>("tall.nii"), Plenty);
+  rhombic::SurfaceViewing viewing;
+  viewing.mostPoints = 400;
+  std::array<double, 6> seen{};
+  viewing.findUnseen = [&seen](const std::array<double, 6> & bounds) {
+    seen = bounds;
+    return 0.02;
+  };
+  const auto make = [&](Bytes memory, const rhombic::SurfaceViewing & usedViewing, std::string & notes) {
+    rhombic::ScanSource source = this->SourceOf(settings.source.path, memory);
+    source.streams = true;
+    const rhombic::Events events = this->Collect(notes);
+    const auto loaded = rhombic::LoadSource(source, settings.surfaces, std::nullopt, events);
+    const rhombic::SurfaceMaking making{ source, settings.surfaces, settings.finish, rhombic::SurfaceUse::Pictures,
+                                         events, std::nullopt,      &usedViewing };
+    auto surfaces = rhombic::ExtractSource(making, loaded);
+    rhombic::FinishSurfaces(making, surfaces);
+    return surfaces.front();
+  };
+  std::string notes, notesInSlabs, notesOfAll;
+  const rhombic::MeshedSurface whole = make(Plenty, viewing, notes);
+  const rhombic::MeshedSurface parts = make(900'000, viewing, notesInSlabs);
+  EXPECT_EQ(notes.find("slab"), std::string::npos) << notes;
+  EXPECT_NE(notesInSlabs.find("slabs"), std::string::npos) << notesInSlabs;
+  EXPECT_NE(notesInSlabs.find("which give the same picture"), std::string::npos) << notesInSlabs;
+  EXPECT_TRUE(parts.scene.surface->GetPoints() == whole.scene.surface->GetPoints());
+  EXPECT_TRUE(parts.scene.surface->GetNormals() == whole.scene.surface->GetNormals());
+  EXPECT_TRUE(parts.scene.surface->GetTriangles() == whole.scene.surface->GetTriangles());
+  viewing.mostPoints = 1'000'000;
+  const rhombic::MeshedSurface all = make(Plenty, viewing, notesOfAll);
+  EXPECT_FALSE(all.whole);
+  EXPECT_LT(parts.scene.surface->GetNumberOfTriangles(), all.scene.surface->GetNumberOfTriangles());
+  EXPECT_NEAR(parts.extracted->volume, all.extracted->volume, 1e-6 * all.extracted->volume);
+  EXPECT_EQ(parts.whole->triangles, all.extracted->triangles);
+  const auto bounds = all.scene.surface->GetBounds();
+  for (std::size_t n = 0; n < bounds.size(); ++n)
+  {
+    EXPECT_NEAR(parts.whole->bounds[n], bounds[n], 1e-6);
+    EXPECT_NEAR(seen[n], bounds[n], 3.0);
+  }
 }
 
 TEST_F(LargeScan, LatticesAreWrittenInSlabs)

@@ -1,7 +1,8 @@
 #!/bin/bash
 # check-large-volumes.sh PROGRAM WORK: rhombic mesh in slabs of a scan in a temporary file is killed at random
 # moments, and meets full disks: nothing half-written, no file left over but hidden ones of killed processes, and the
-# next run makes the same bytes. Full disks need root, who can mount small ones.
+# next run makes the same bytes. Full disks need root, who can mount small ones. rhombic render draws the same picture of
+# a volume in slabs as in memory.
 set -eu
 program=$1 work=$2
 rm -rf "$work"
@@ -39,6 +40,25 @@ for run in $(seq 30); do
 done
 (mesh "$work/out/mesh.ply")
 cmp "$work/expected.ply" "$work/out/mesh.ply"
+
+truncate -s $((2 * 512 * 512 * 512)) "$work/plate.raw" # a hole but for a thin plate
+head -c 102400 /dev/zero | tr '\0' '\47' |
+    dd of="$work/plate.raw" conv=notrunc bs=1024 seek=$((256 * 512 + 200)) 2> "$work/written"
+cat > "$work/plate.mhd" << END
+ObjectType = Image
+NDims = 3
+DimSize = 512 512 512
+ElementType = MET_SHORT
+ElementDataFile = plate.raw
+END
+for memory in 160M 2G; do
+    "$program" render "$work/plate.mhd" --surface plate=5000.5 --size 300 --view 30,40 --max-memory $memory \
+        --no-sidecar -o "$work/plate-$memory.png" 2> "$work/notes-$memory"
+done
+grep -q "slabs, again for each pass" "$work/notes-160M" || fail "not in slabs: $(cat "$work/notes-160M")"
+! grep -q "slabs" "$work/notes-2G" || fail "in slabs: $(cat "$work/notes-2G")"
+cmp "$work/plate-160M.png" "$work/plate-2G.png"
+rm "$work/plate.raw"
 
 truncate -s 1M "$work/disk.img"
 mkfs.ext2 -q "$work/disk.img" 2> /dev/null && mount -o loop "$work/disk.img" "$work/disk" 2> /dev/null || exit 77
