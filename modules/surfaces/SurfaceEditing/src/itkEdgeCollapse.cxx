@@ -359,7 +359,7 @@ private:
     }
     Quadric quadric = m_Quadrics[from];
     quadric.Add(m_Quadrics[to]);
-    const double error = quadric.ComputeDistance(this->FindPosition(from, to));
+    const double error = quadric.ComputeDistance(this->FindPosition(from, to, quadric));
     if (error <= m_LargestError)
     {
       m_Candidates.push({ static_cast<float>(error), from, to, m_Versions[from] + m_Versions[to] });
@@ -377,17 +377,15 @@ private:
     return m_Stays[to] || m_Strata[to] > m_Strata[from];
   }
 
-  /** The position to which an edge collapses, rounded to the surface's precision. */
+  /** The position to which an edge collapses, rounded to the surface's precision. \param quadric the sum of both */
   PositionType
-  FindPosition(PointId from, PointId to) const
+  FindPosition(PointId from, PointId to, const Quadric & quadric) const
   {
     if (this->KeepsPlace(from, to))
     {
       return m_Positions[to];
     }
     const PositionType middle = Mix(m_Positions[from], m_Positions[to], 0.5);
-    Quadric quadric = m_Quadrics[from];
-    quadric.Add(m_Quadrics[to]);
     PositionType position = quadric.FindMinimum(middle);
     const double squaredEdge = SquaredDistance(m_Positions[to], m_Positions[from]);
     if (!(SquaredDistance(position, middle) <= FarthestPosition * FarthestPosition * squaredEdge))
@@ -407,8 +405,14 @@ private:
       return false;
     }
     this->CollectFans(from, to);
-    EdgeToCollapse edge{ from, to, this->FindPosition(from, to), None, 0, error };
-    if (!this->KeepsTopology(from, to) || !this->KeepsShape(from, to, edge.position))
+    if (!this->KeepsTopology(from, to))
+    {
+      return false;
+    }
+    Quadric quadric = m_Quadrics[from];
+    quadric.Add(m_Quadrics[to]);
+    EdgeToCollapse edge{ from, to, this->FindPosition(from, to, quadric), None, 0, error };
+    if (!this->KeepsShape(from, to, edge.position))
     {
       return false;
     }

@@ -65,14 +65,13 @@ NearestOfFan(const double * HWY_RESTRICT values,
              double * HWY_RESTRICT nearest)
 {
   const Doubles d;
-  const Vector infinity = Broadcast(std::numeric_limits<double>::infinity());
   for (std::size_t n = 0; n < stride; n += hn::Lanes(d))
   {
     const Vector x = hn::LoadU(d, values + n);
     const Vector y = hn::LoadU(d, values + stride + n);
     const Vector z = hn::LoadU(d, values + 2 * stride + n);
     const Vector sheet = hn::LoadU(d, values + 3 * stride + n);
-    Vector least = infinity;
+    Vector least = Broadcast(std::numeric_limits<double>::infinity());
     Vector number = hn::Zero(d);
     for (std::size_t k = 0; k < count; ++k)
     {

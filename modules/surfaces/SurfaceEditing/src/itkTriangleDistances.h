@@ -109,12 +109,6 @@ public:
     return m_Size == 0;
   }
 
-  void
-  Clear()
-  {
-    m_Size = 0;
-  }
-
   /** Returns false if there is no room. */
   bool
   Add(std::uint32_t triangle, const CornersType & corners);

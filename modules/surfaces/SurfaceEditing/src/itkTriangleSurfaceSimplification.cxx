@@ -384,7 +384,7 @@ private:
   FindShareOfPatch() const
   {
     const double shareRemoved = 1.0 - this->FindAim() / static_cast<double>(m_Before->GetNumberOfTriangles());
-    return m_EndsEarly ? 1.0 - std::min(shareRemoved + 0.15, 2.0 * shareRemoved + 0.05) : 0.0;
+    return m_EndsEarly ? 1.0 - std::min(shareRemoved + 0.3, 3.0 * shareRemoved + 0.05) : 0.0;
   }
 
   /** If the patches together have fewer triangles than this step may leave, takes back the collapses of largest error.
@@ -452,15 +452,13 @@ private:
   bool
   PutBackBadTriangles()
   {
-    bool checksAll = false;
     for (unsigned int round = 0; round < MostRounds; ++round)
     {
-      const std::vector<PatchId> changed = this->Hold(this->FindBad(checksAll), round);
-      if (changed.empty() && checksAll)
+      const std::vector<PatchId> changed = this->Hold(this->FindBad(), round);
+      if (changed.empty())
       {
         return true;
       }
-      checksAll = changed.empty();
       this->Replay(changed);
       this->JoinPatches();
     }
@@ -532,9 +530,10 @@ private:
     m_FirstCovered.push_back(static_cast<std::uint32_t>(m_CoveredPoints.size()));
   }
 
-  /** Finds the new triangles that can't stay: where triangles have changed since the last check, or everywhere. */
+  /** Finds the new triangles that can't stay: where triangles have changed since the last check, or if all is well
+   * there, everywhere. */
   Flags
-  FindBad(bool checksAll)
+  FindBad()
   {
     Flags isBad(m_State.GetNumberOfTriangles(), 0);
     std::vector<TriangleTree> trees; // of all triangles, and then, in place of it, of the sheets
@@ -548,13 +547,26 @@ private:
         trees.clear();
         trees = TreesOfSheets(m_State, m_Sheets, m_Original->numberOfSheets);
       }
-      this->FindUncovered(trees, checksAll, isBad);
+      this->FindUncovered(trees, false, isBad);
     }
+    this->LeaveOldTriangles(isBad);
+    if (m_Original != nullptr && std::find(isBad.begin(), isBad.end(), std::uint8_t{ 1 }) == isBad.end())
+    {
+      std::fill(m_IsFresh.begin(), m_IsFresh.end(), std::uint8_t{ 0 }); // they were checked
+      this->FindUncovered(trees, true, isBad);
+      this->LeaveOldTriangles(isBad);
+    }
+    return isBad;
+  }
+
+  /** Takes the triangles that were there before the step for good. */
+  void
+  LeaveOldTriangles(Flags & isBad) const
+  {
     for (TriangleId id = 0; id < isBad.size(); ++id)
     {
       isBad[id] &= m_IsNew[id];
     }
-    return isBad;
   }
 
   /** Adds the triangles that meet others elsewhere than at shared corners and sides, for pairs with a new triangle and
