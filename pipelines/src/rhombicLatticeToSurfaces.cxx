@@ -55,7 +55,7 @@ public:
   bool
   Begin(std::size_t surface, const std::vector<itk::SizeValueType> & firstPoints, const Bounds & bounds) override
   {
-    const bool isLarge = m_Viewing != nullptr && firstPoints.back() > m_Viewing->mostPoints;
+    const bool isLarge = firstPoints.back() > m_Viewing->mostPoints;
     if (isLarge)
     {
       m_Surfaces.try_emplace(surface, firstPoints, m_Viewing->findUnseen(bounds), 1 + m_Viewing->mostPoints / 4);
@@ -183,7 +183,7 @@ struct IsosurfaceExtraction
     filter->SetComputeNormals(computesNormals);
     filter->SetNumberOfStreamDivisions(divisions);
     LargeSurfaces large(viewing, moveWalls);
-    filter->SetParts(&large);
+    filter->SetParts(viewing != nullptr ? &large : nullptr);
     filter->Update();
     for (std::size_t n = 0; n < chosen.size(); ++n)
     {

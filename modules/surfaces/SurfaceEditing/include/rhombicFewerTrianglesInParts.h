@@ -95,7 +95,6 @@ private:
   std::vector<itk::SizeValueType> m_Planes; ///< the first of each block, and the plane behind the last
   double m_Distance;
   itk::SizeValueType m_Block = 0; ///< the next
-  itk::SizeValueType m_BlocksTogether = 0;
 
   itk::SizeValueType m_FirstPending = 0; ///< the number of the first point that is kept
   itk::TriangleSurface::Pointer

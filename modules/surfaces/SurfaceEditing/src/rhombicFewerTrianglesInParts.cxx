@@ -2,8 +2,10 @@
 
 #include "detail/itkPositionArithmetic.h"
 #include "itkTriangleSurfaceForRendering.h"
+#include "rhombicForEachBlock.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -25,11 +27,12 @@ Append(const TContainer & from, std::size_t begin, std::size_t end, TContainer &
 }
 
 /** Fewer triangles of a sheet, but for those whose corners have normals that differ so much that they would be seen to
- * be larger. */
+ * be larger. \param sheets into which the sheet is divided, to work on at the same time; the points between stay */
 itk::TriangleSurface::TrianglesContainer
 SimplifyShaded(const itk::TriangleSurface & surface,
                const itk::TriangleSurface::TrianglesContainer & triangles,
-               double distance)
+               double distance,
+               std::size_t sheets)
 {
   constexpr float leastCosine = 0.97f; // of 14 degrees
   itk::TriangleSurface::TrianglesContainer bent;
@@ -45,9 +48,16 @@ SimplifyShaded(const itk::TriangleSurface & surface,
     }
     (isBent ? bent : others).push_back(triangle);
   }
-  others = itk::SimplifySheetForRendering(surface.GetPoints(), others, distance);
-  Append(bent, 0, bent.size(), others);
-  return others;
+  std::vector<itk::TriangleSurface::TrianglesContainer> fewer(sheets);
+  ForEachOnThreads(sheets, [&](std::size_t n) {
+    Append(others, n * others.size() / sheets, (n + 1) * others.size() / sheets, fewer[n]);
+    fewer[n] = itk::SimplifySheetForRendering(surface.GetPoints(), fewer[n], distance);
+  });
+  for (const auto & sheet : fewer)
+  {
+    Append(sheet, 0, sheet.size(), bent);
+  }
+  return bent;
 }
 
 /** Erases the first elements, and the room for them. */
@@ -101,9 +111,8 @@ FewerTrianglesInParts::Add(const itk::TriangleSurface & part, itk::SizeValueType
     SmoothTriangleSurfaceNormals(*window.surface);
     this->Measure(window, m_Block);
     this->DropPlanes(endOfBlock);
-    this->Join(window, SimplifyShaded(*window.surface, window.ofBlock, m_Distance), endOfBlock);
+    this->Join(window, SimplifyShaded(*window.surface, window.ofBlock, m_Distance, 4), endOfBlock);
     ++m_Block;
-    ++m_BlocksTogether;
     const bool isLast = m_Block + 1 == m_Planes.size();
     if (isLast || m_Joined->GetNumberOfTriangles() - m_TrianglesBefore > MostTrianglesTogether)
     {
@@ -234,42 +243,42 @@ FewerTrianglesInParts::SimplifyTogether()
   auto & points = m_Joined->GetPoints();
   auto & normals = m_Joined->GetNormals();
   auto & triangles = m_Joined->GetTriangles();
-  if (std::exchange(m_BlocksTogether, 0) > 1)
+  constexpr std::uint32_t unused = std::numeric_limits<std::uint32_t>::max();
+  Triangles together;
+  Append(triangles, m_TrianglesBefore, triangles.size(), together);
+  triangles.resize(m_TrianglesBefore);
+  together = SimplifyShaded(*m_Joined, together, m_Distance, 3);
+  std::vector<std::uint32_t> numbers(points.size() - m_PointsBefore, unused);
+  const auto forEachPoint = [&](const auto & use) {
+    for (auto & triangle : together)
+    {
+      for (std::uint32_t & point : triangle)
+      {
+        point >= m_PointsBefore ? use(point, numbers[point - m_PointsBefore]) : void();
+      }
+    }
+  };
+  forEachPoint([](std::uint32_t, std::uint32_t & number) { number = 0; });
+  auto kept = static_cast<std::uint32_t>(m_PointsBefore);
+  for (std::size_t n = 0; n < numbers.size(); ++n)
   {
-    Triangles together;
-    Append(triangles, m_TrianglesBefore, triangles.size(), together);
-    triangles.resize(m_TrianglesBefore);
-    together = SimplifyShaded(*m_Joined, together, m_Distance);
-    std::vector<std::uint32_t> numbers(points.size() - m_PointsBefore, 0); // 1 for those that are used
-    const auto forEachPoint = [&](const auto & use) {
-      for (auto & triangle : together)
-      {
-        for (std::uint32_t & point : triangle)
-        {
-          point >= m_PointsBefore ? use(point, numbers[point - m_PointsBefore]) : void();
-        }
-      }
-    };
-    forEachPoint([](std::uint32_t, std::uint32_t & number) { number = 1; });
-    auto kept = static_cast<std::uint32_t>(m_PointsBefore);
-    for (std::size_t n = 0; n < numbers.size(); ++n)
+    if (numbers[n] != unused)
     {
-      if (numbers[n] != 0)
-      {
-        points[kept] = points[m_PointsBefore + n];
-        normals.empty() ? void() : void(normals[kept] = normals[m_PointsBefore + n]);
-        numbers[n] = kept++;
-      }
+      points[kept] = points[m_PointsBefore + n];
+      normals.empty() ? void() : void(normals[kept] = normals[m_PointsBefore + n]);
+      numbers[n] = kept++;
     }
-    forEachPoint([](std::uint32_t & point, std::uint32_t number) { point = number; });
-    points.resize(kept);
-    normals.resize(normals.empty() ? 0 : kept);
-    for (auto & [ofWhole, point] : m_Shared)
-    {
-      point = point >= m_PointsBefore ? numbers[point - m_PointsBefore] : point;
-    }
-    Append(together, 0, together.size(), triangles);
   }
+  forEachPoint([](std::uint32_t & point, std::uint32_t number) { point = number; });
+  points.resize(kept);
+  normals.resize(normals.empty() ? 0 : kept);
+  for (auto shared = m_Shared.begin(); shared != m_Shared.end();)
+  {
+    std::uint32_t & point = shared->second;
+    point = point >= m_PointsBefore ? numbers[point - m_PointsBefore] : point;
+    shared = point == unused ? m_Shared.erase(shared) : std::next(shared);
+  }
+  Append(together, 0, together.size(), triangles);
   m_PointsBefore = points.size();
   m_TrianglesBefore = triangles.size();
 }
