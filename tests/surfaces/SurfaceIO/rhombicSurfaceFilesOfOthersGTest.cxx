@@ -130,6 +130,8 @@ TEST_F(SurfaceFilesOfOthers, TextSTLWithTwoSolids)
 
   const auto turned = this->Read("ras.stl", "solid ascii SPACE=RAS\n" + square + "endsolid\n");
   EXPECT_EQ(turned[0].surface->GetBounds(), (std::array<double, 6>{ -1, 0, -1, 0, 0, 0 }));
+  EXPECT_EQ(this->Refused("vertex.stl", "solid\nfacet normal 0 0 1\nouter vertex\n", "line 3"),
+            rhombic::FailureKind::Unreadable);
   const auto marked = this->Read("marked.stl", "\xEF\xBB\xBFsolid marked\n" + square + "endsolid marked\n");
   EXPECT_EQ(marked[0].surface->GetNumberOfTriangles(), 2u) << "the mark that Windows programs put before UTF-8";
 }
@@ -437,7 +439,7 @@ TEST_F(SurfaceFilesOfOthers, WordsOfVTPInTextAreNumbersOfTheirType)
   {
     EXPECT_EQ(this->Read("a.vtp", fileWith(right, "3", "12")).front().surface->GetNumberOfTriangles(), 4u) << right;
   }
-  for (const std::string wrong : { "0x10", "1e40", "1.5.7", "1,5", "1e5d", "1 junk", "+-1", "1e", "&#49;" })
+  for (const std::string wrong : { "0x10", "1e40", "1.5.7", "1,5", "1e5d", "1 junk", "+-1", "1e", "&#49;", "-inf" })
   {
     EXPECT_EQ(this->Refused("a.vtp", fileWith(wrong, "3", "12"), "Float32"), rhombic::FailureKind::Unreadable);
   }

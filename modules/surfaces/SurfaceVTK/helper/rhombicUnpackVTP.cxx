@@ -83,9 +83,8 @@ IsNumberOfType(std::string_view word, std::string_view type)
   if (type == "Float32" || type == "Float64")
   {
     const auto number = ToNumber<double>(word);
-    const bool isTooLarge =
-      type == "Float32" && number && std::isfinite(*number) && std::abs(*number) > std::numeric_limits<float>::max();
-    return number && !isTooLarge;
+    const double largest = type == "Float32" ? std::numeric_limits<float>::max() : std::numeric_limits<double>::max();
+    return number && !(std::abs(*number) > largest); // VTK reads infinity as 0
   }
   const auto found = limits.find(type);
   const auto number = ToNumber<std::int64_t>(word);

@@ -114,8 +114,9 @@ ReadText(const InputFile & file)
       read.surface = solid->surface;
       solid.reset();
     }
-    else if (!keyword.empty() &&
-             (solid == nullptr || (keyword != "facet" && keyword != "outer" && keyword != "endfacet")))
+    else if (const bool isSkipped =
+               keyword == "facet" || keyword == "endfacet" || (keyword == "outer" && LowerCase(Trim(line)) == "loop");
+             !keyword.empty() && (solid == nullptr || !isSkipped))
     {
       stream.RefuseLine("this is not how a text STL goes on; the file is damaged, so export it again");
     }
