@@ -49,15 +49,13 @@ FragmentLists::AreSupported()
   GLint minor = 0;
   glGetIntegerv(GL_MAJOR_VERSION, &major);
   glGetIntegerv(GL_MINOR_VERSION, &minor);
-  if (10 * major + minor < 43)
+  if (10 * major + minor < 43 || !GLEW_VERSION_4_3) // GLEW may have looked in an older context
   {
     return false;
   }
-  GLint bytes = 0;
-  GLint blocks = 0;
-  glGetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
-  glGetIntegerv(GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS, &blocks);
-  return static_cast<std::size_t>(bytes) >= sizeof(PoolSizes) + Capacity * FragmentBytes && blocks >= 2;
+  GLint64 bytes = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
+  return bytes >= static_cast<GLint64>(sizeof(PoolSizes) + Capacity * FragmentBytes);
 }
 
 void
@@ -67,6 +65,7 @@ FragmentLists::Begin(const Viewport & part)
   const auto samples = static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.height);
   if (samples > m_Samples)
   {
+    m_Firsts = nullptr; // before there is room for more
     m_Firsts = MakeBuffer(samples * sizeof(GLuint));
     m_Samples = samples;
   }
@@ -76,7 +75,13 @@ FragmentLists::Begin(const Viewport & part)
   }
   constexpr GLuint none = 0;
   Bind(*m_Firsts, Firsts);
-  glClearBufferData(GL_SHADER_STORAGE_BUFFER, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &none);
+  glClearBufferSubData(GL_SHADER_STORAGE_BUFFER,
+                       GL_R32UI,
+                       0,
+                       static_cast<GLsizeiptr>(samples * sizeof none),
+                       GL_RED_INTEGER,
+                       GL_UNSIGNED_INT,
+                       &none);
   Bind(*m_Fragments, Fragments);
   const PoolSizes sizes{};
   glBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof sizes, sizes.data());
@@ -85,7 +90,7 @@ FragmentLists::Begin(const Viewport & part)
 std::size_t
 FragmentLists::NumberOfFragments() const
 {
-  PoolSizes sizes;
+  PoolSizes sizes{};
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
   Bind(*m_Fragments, Fragments);
   glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof sizes, sizes.data());
@@ -161,13 +166,13 @@ void AddFragment(vec4 colour)
 )";
 
 const char * const BlendFragmentsText = R"(
-// Whether a is seen before b: depth, actor and colour. Fragments in one place are in the order of their actors.
+// Whether a is seen before b: depth, actor and colour. Of fragments in one place, that of the first actor is seen.
 bool IsBefore(uvec3 a, uvec3 b)
 {
   return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
 }
 
-// No array is sorted, as software of Mesa 22.3 loses elements that are moved within an array.
+// The next fragment is searched for, not sorted in an array, as software of Mesa 22.3 loses elements that are moved within an array.
 void main()
 {
   uint first = firsts[Sample()];

@@ -34,7 +34,8 @@ struct Viewport
 class FragmentLists
 {
 public:
-  /** The number of fragments that are kept. OpenGL 4.3 promises 2^24 bytes, software and graphics cards have 2^27. */
+  /** The largest number of fragments: a sixteenth in each of 16 pools, which tiles of 64 x 64 samples share. Needs a
+   * block of 64 MiB; OpenGL 4.3 promises 16 MiB, software and most graphics cards have 128 MiB and more. */
   static constexpr std::size_t Capacity = std::size_t{ 1 } << 22U;
   static constexpr std::size_t FragmentBytes = 16;
 
@@ -46,11 +47,11 @@ public:
   void
   Begin(const Viewport & part);
 
-  /** Other programs' buffers may be bound again. */
+  /** Binds no buffers any more. Those that another program has bound at 0 and 1 before have to be bound again. */
   static void
   End();
 
-  /** The number of fragments since Begin(), as if all tiles of the part had as many as the fullest. Where it is above
+  /** The number of fragments since Begin(), as if all pools had as many as the fullest. Where it is above
    * Capacity, some were not kept. */
   std::size_t
   NumberOfFragments() const;
@@ -63,7 +64,7 @@ private:
   Viewport m_Part;
   std::size_t m_Samples = 0;                          ///< that the buffer of firsts has room for
   vtkSmartPointer<vtkOpenGLBufferObject> m_Firsts;    ///< of each sample's list
-  vtkSmartPointer<vtkOpenGLBufferObject> m_Fragments; ///< with their number
+  vtkSmartPointer<vtkOpenGLBufferObject> m_Fragments; ///< behind the numbers of those in each pool
 };
 
 /** GLSL: the lists, for both programs. */

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <utility>
 
 namespace rhombic
 {
@@ -119,6 +118,7 @@ public:
     , m_Multisample(state, GL_MULTISAMPLE)
     , m_DepthMask(state)
     , m_DepthFunc(state)
+    , m_ColourMask(state)
     , m_ClearColour(state)
     , m_Viewport(state)
     , m_ScissorBox(state)
@@ -137,6 +137,7 @@ private:
   vtkOpenGLState::ScopedglEnableDisable m_Multisample;
   vtkOpenGLState::ScopedglDepthMask m_DepthMask;
   vtkOpenGLState::ScopedglDepthFunc m_DepthFunc;
+  vtkOpenGLState::ScopedglColorMask m_ColourMask;
   vtkOpenGLState::ScopedglClearColor m_ClearColour;
   vtkOpenGLState::ScopedglViewport m_Viewport;
   vtkOpenGLState::ScopedglScissor m_ScissorBox;
@@ -184,7 +185,7 @@ SamplesOf(const Viewport & part)
   return static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.height);
 }
 
-/** Parts whose lists hold a number of fragments, if the parts have equally many. */
+/** Equal parts, so many that the lists hold each part's share of a number of fragments. */
 std::vector<Viewport>
 Split(const Viewport & whole, std::size_t fragments)
 {

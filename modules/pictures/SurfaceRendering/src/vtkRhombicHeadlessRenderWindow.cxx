@@ -102,7 +102,10 @@ struct GLContext
     Check(eglBindAPI(EGL_OPENGL_API), "eglBindAPI");
     Check(eglChooseConfig(display, configRules, &config, 1, &configs) && configs == 1, "eglChooseConfig");
     context = eglCreateContext(display, config, EGL_NO_CONTEXT, contextRules);
-    Check(context != EGL_NO_CONTEXT, "eglCreateContext");
+    if (context == EGL_NO_CONTEXT)
+    {
+      Fail("it has no OpenGL 4.3");
+    }
     surface = eglCreatePbufferSurface(display, config, surfaceRules);
     if (surface == EGL_NO_SURFACE)
     {
@@ -144,9 +147,10 @@ struct GLContext
   }
 };
 
-/** Throws Failure(Display) with the reason when no graphics card works. */
+/** A context of one of the devices that EGL lists: of graphics cards, or of Mesa's software. Throws Failure(Display)
+ * with the reason when none works. */
 std::unique_ptr<GLContext>
-CreateDeviceContext()
+CreateContextOfDevices(bool areSoftware)
 {
   const auto getDisplay =
     FindFunction<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT", "EGL_EXT_platform_device");
@@ -156,10 +160,11 @@ CreateDeviceContext()
   std::array<EGLDeviceEXT, 64> devices{};
   EGLint count = 0;
   Check(findDevices(static_cast<EGLint>(devices.size()), devices.data(), &count), "eglQueryDevicesEXT");
-  std::string reason = "there is no graphics card, or this user may not use it";
+  std::string reason =
+    areSoftware ? "there is no software of Mesa that draws" : "there is no graphics card, or this user may not use it";
   for (EGLint n = 0; n < count; ++n)
   {
-    if (HasWord(queryString(devices[n], EGL_EXTENSIONS), "EGL_MESA_device_software"))
+    if (HasWord(queryString(devices[n], EGL_EXTENSIONS), "EGL_MESA_device_software") != areSoftware)
     {
       continue;
     }
@@ -175,13 +180,26 @@ CreateDeviceContext()
   Fail(reason);
 }
 
+std::unique_ptr<GLContext>
+CreateDeviceContext()
+{
+  return CreateContextOfDevices(false);
+}
+
 /** Throws Failure(Display) with the reason when Mesa does not work without a display. */
 std::unique_ptr<GLContext>
 CreateSurfacelessContext()
 {
   const auto getDisplay =
     FindFunction<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT", "EGL_MESA_platform_surfaceless");
-  return std::make_unique<GLContext>(getDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
+  try
+  {
+    return std::make_unique<GLContext>(getDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
+  }
+  catch (const Failure &) // Mesa may have chosen an old graphics card
+  {
+    return CreateContextOfDevices(true);
+  }
 }
 
 struct Backend
@@ -471,7 +489,7 @@ vtkRhombicHeadlessRenderWindow::OpenGLInitContext()
   }
   // GLEW looks up OpenGL's functions for VTK. Without a display it finds all but those of GLX, which nobody calls here,
   // and reports an error. Where the caller's program has called GLEW, its table stays as it is.
-  const GLenum result = GLEW_VERSION_3_2 ? GLEW_OK : glewInit();
+  const GLenum result = GLEW_VERSION_4_3 ? GLEW_OK : glewInit();
   this->GlewInitValid =
     result == GLEW_OK || result == GLEW_ERROR_NO_GLX_DISPLAY || result == GLEW_ERROR_GLX_VERSION_11_ONLY;
   this->Initialized = this->GlewInitValid;

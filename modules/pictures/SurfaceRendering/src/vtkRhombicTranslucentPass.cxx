@@ -42,15 +42,19 @@ vtkRhombicTranslucentPass::Render(const vtkRenderState * state)
     const rhombic::CameraMatrices camera(renderer, viewport.width, viewport.height);
     vtkRhombicOpaquePass::Parts & parts = *this->OpaquePass->Internals;
     parts.Use(window);
-    parts.actors.SetActors(props.surfaces, camera, rhombic::LookOf(this->OpaquePass, renderer));
-    this->NumberOfRenderedProps = parts.actors.NumberOf(true);
-    if (this->NumberOfRenderedProps > 0 && !rhombic::FragmentLists::AreSupported())
+    if (!rhombic::FragmentLists::AreSupported())
     {
-      vtkErrorMacro("Translucent surfaces need OpenGL 4.3. Draw them opaque, or in a vtkRhombicHeadlessRenderWindow.");
+      vtkErrorMacro("Translucent surfaces need OpenGL 4.3 with storage blocks of 64 MiB. Draw them opaque, or in a "
+                    "vtkRhombicHeadlessRenderWindow.");
     }
-    else if (this->NumberOfRenderedProps > 0)
+    else
     {
-      parts.samples.DrawTranslucent(parts.actors, rhombic::SamplesOf(this->OpaquePass), viewport, window);
+      parts.actors.SetActors(props.surfaces, camera, rhombic::LookOf(this->OpaquePass, renderer));
+      this->NumberOfRenderedProps = parts.actors.NumberOf(true);
+      if (this->NumberOfRenderedProps > 0)
+      {
+        parts.samples.DrawTranslucent(parts.actors, rhombic::SamplesOf(this->OpaquePass), viewport, window);
+      }
     }
   }
   this->NumberOfRenderedProps += rhombic::RenderOthers(this->OtherPass, state, props.others);
