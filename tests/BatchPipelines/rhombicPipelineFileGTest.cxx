@@ -157,6 +157,9 @@ TEST(PipelineFile, MistakesAreNamedWithLineAndNearestKey)
          Mistake{ "outputs:\n  - page: ../a.png\n", "line 2" },
          Mistake{ "outputs:\n  - page: a.png\n    size: bad\n", "line 2: 'bad' is no size" },
          Mistake{ "outputs:\n  - page: a.png\n    labels: maybe\n", "true or false is expected, in line 3" },
+         Mistake{ "outputs:\n  - mesh: a.stl\n    measures: [a.csv, b.csv]\n",
+                  "name of one file is expected, in line 3" },
+         Mistake{ "outputs:\n  - mesh: a.stl\n    measures: true\n", "name of one file is expected, in line 3" },
          Mistake{ "outputs:\n  - page: [\n", "not valid in line" },
          Mistake{ "description: nothing\n", "has no outputs" } })
   {

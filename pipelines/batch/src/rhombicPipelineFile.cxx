@@ -212,6 +212,10 @@ private:
     step.settings[setting.name] = texts.size() == 1 ? Report(texts[0]) : texts;
     if (setting.isOutput)
     {
+      if (!step.settings[setting.name].is_string())
+      {
+        throw YAMLMistake("has a list or true where the name of one file is expected, " + LineOf(value));
+      }
       step.files.push_back(setting.name);
     }
   }
