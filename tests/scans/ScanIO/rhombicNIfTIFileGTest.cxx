@@ -255,6 +255,7 @@ TEST_F(NIfTIFile, AffinesThatMakeNoSenseAreRefusedAndNotReplaced)
   for (const auto & sform : { std::array<double, 12>{},
                               std::array<double, 12>{ 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0 },
                               std::array<double, 12>{ 1, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0 },
+                              std::array<double, 12>{ 1, 0, 20, 0, 0, 1, 0, 0, 0, 0, 1, 0 }, // sheared by 87 degrees
                               std::array<double, 12>{ 1, 0, 0, nan, 0, 1, 0, 0, 0, 0, 1, 0 } })
   {
     file.sform = sform;

@@ -72,11 +72,12 @@ CheckGeometry(const VolumeGeometry & geometry,
                      "its voxels have no proper size along axis " + std::to_string(axis) + " (" + matrix +
                        "); export it again from its source");
   }
-  constexpr double smallestVolume = 1e-3; // volume that three unit axes must span at least
+  constexpr double smallestVolume = 0.1; // that three unit axes must span: sheared by 84 degrees
   const double volume = AxisOf(geometry, 0) * itk::CrossProduct(AxisOf(geometry, 1), AxisOf(geometry, 2));
   RefuseGeometryIf(std::abs(volume) < smallestVolume,
                    path,
-                   "its axes lie in one plane (the " + matrix + " is singular); export it again from its source");
+                   "its axes lie in one plane or nearly so (the " + matrix +
+                     " is singular); export it again from its source");
 
   double largestCosine = 0;
   for (unsigned int axis = 0; axis < 3; ++axis)
