@@ -57,6 +57,7 @@ public:
     return *m_Joined;
   }
 
+  /** GetSurface(), to be changed. */
   itk::TriangleSurface::Pointer
   TakeSurface()
   {
