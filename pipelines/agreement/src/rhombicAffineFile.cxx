@@ -97,6 +97,10 @@ ReadTransform(const std::filesystem::path & path)
   }
   itk::TransformFactoryBase::RegisterDefaultTransforms();
   const itk::LightObject::Pointer made = itk::ObjectFactoryBase::CreateInstance(className.c_str());
+  if (made)
+  {
+    made->UnRegister(); // CreateInstance() counts a reference that nobody holds
+  }
   const TransformType::Pointer transform = dynamic_cast<TransformType *>(made.GetPointer());
   if (!transform)
   {
