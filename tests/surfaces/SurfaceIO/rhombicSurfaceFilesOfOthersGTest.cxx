@@ -130,8 +130,10 @@ TEST_F(SurfaceFilesOfOthers, TextSTLWithTwoSolids)
 
   const auto turned = this->Read("ras.stl", "solid ascii SPACE=RAS\n" + square + "endsolid\n");
   EXPECT_EQ(turned[0].surface->GetBounds(), (std::array<double, 6>{ -1, 0, -1, 0, 0, 0 }));
-  EXPECT_EQ(this->Refused("vertex.stl", "solid\nfacet normal 0 0 1\nouter vertex\n", "line 3"),
-            rhombic::FailureKind::Unreadable);
+  for (const std::string lines : { "facet normal 0 0 1\nouter vertex\n", "facet\nfacet vertex 0 0 1\n" })
+  {
+    EXPECT_EQ(this->Refused("vertex.stl", "solid\n" + lines, "line 3"), rhombic::FailureKind::Unreadable) << lines;
+  }
   const auto marked = this->Read("marked.stl", "\xEF\xBB\xBFsolid marked\n" + square + "endsolid marked\n");
   EXPECT_EQ(marked[0].surface->GetNumberOfTriangles(), 2u) << "the mark that Windows programs put before UTF-8";
 }

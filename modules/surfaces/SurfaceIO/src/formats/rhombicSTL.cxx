@@ -79,6 +79,14 @@ struct Solid
   PointWelder welder{ surface->GetPoints() };
 };
 
+/** Whether a line that begins with these words tells nothing that is read: normals follow from the corners. */
+bool
+IsSkipped(const std::string & keyword, const std::string & next)
+{
+  return keyword == "endfacet" || (keyword == "facet" && (next.empty() || next == "normal")) ||
+         (keyword == "outer" && next == "loop");
+}
+
 std::vector<SceneSurface>
 ReadText(const InputFile & file)
 {
@@ -114,9 +122,7 @@ ReadText(const InputFile & file)
       read.surface = solid->surface;
       solid.reset();
     }
-    else if (const bool isSkipped =
-               keyword == "facet" || keyword == "endfacet" || (keyword == "outer" && LowerCase(Trim(line)) == "loop");
-             !keyword.empty() && (solid == nullptr || !isSkipped))
+    else if (!keyword.empty() && (solid == nullptr || !IsSkipped(keyword, LowerCase(TakeWord(line)))))
     {
       stream.RefuseLine("this is not how a text STL goes on; the file is damaged, so export it again");
     }
