@@ -46,10 +46,12 @@ RequireNearOrigin(const Scan & scan, const fs::path & path)
   double farthest = 0.0;
   for (unsigned int corner = 0; corner < 8; ++corner)
   {
-    itk::Index<3> index = region.GetIndex();
+    itk::Index<3> index;
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      index[axis] = (corner >> axis & 1u) != 0 ? region.GetUpperIndex()[axis] : index[axis];
+      constexpr itk::IndexValueType around = 2; // voxels, to which the lattice reaches
+      index[axis] =
+        (corner >> axis & 1u) != 0 ? region.GetUpperIndex()[axis] + around : region.GetIndex()[axis] - around;
     }
     const auto point = grid.TransformIndexToPhysicalPoint<double>(index);
     farthest = std::max({ farthest, std::abs(point[0]), std::abs(point[1]), std::abs(point[2]) });

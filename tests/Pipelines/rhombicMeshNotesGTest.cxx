@@ -86,6 +86,17 @@ TEST(MeshScan, ScansFarFromTheOriginAreRefused)
   }
 }
 
+TEST(MeshScan, LatticesThatReachFarFromTheOriginAreRefused)
+{
+  const auto image = itk::Image<std::int16_t, 3>::New();
+  image->SetRegions(itk::Size<3>{ { 2, 3, 4 } });
+  image->Allocate(true);
+  image->SetPixel({ { 1, 1, 1 } }, 100);
+  constexpr double spacing[] = { 131072.0, 1.5, 2.5 }; // the voxels reach to 87,381 times the smallest edge
+  image->SetSpacing(spacing);
+  EXPECT_THROW(NotesOf(image, Parts::All), rhombic::Failure);
+}
+
 TEST(MeshNotes, SayWhereAnOutlineFillsAHollow)
 {
   const std::string filled = NotesOf(MakeBlock(true), Parts::Outermost);
