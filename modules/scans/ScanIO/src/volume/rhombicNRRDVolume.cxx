@@ -180,6 +180,10 @@ Place(const NRRDHeader & header,
   itk::Point<double, 3> origin;
   origin.Fill(0);
   itk::Vector<double, 3> steps[3];
+  const auto spaceOrigin = NumbersOf(header.Get("spaceorigin"));
+  RefuseGeometryIf(!spaceOrigin || (!spaceOrigin->empty() && spaceOrigin->size() < 3),
+                   path,
+                   "its header's 'space origin' can't be read; export it again from its source");
   if (directions.empty())
   {
     const auto spacings = NumbersOf(header.Get("spacings"));
@@ -206,10 +210,6 @@ Place(const NRRDHeader & header,
   const auto coordinate = [&](const std::vector<double> & vector, unsigned int row) {
     return vector[row] * unit * (signs && row < 2 ? (*signs)[row] : 1.0);
   };
-  const auto spaceOrigin = NumbersOf(header.Get("spaceorigin"));
-  RefuseGeometryIf(!spaceOrigin || (!spaceOrigin->empty() && spaceOrigin->size() < 3),
-                   path,
-                   "its header's 'space origin' can't be read; export it again from its source");
   for (unsigned int row = 0; row < 3; ++row)
   {
     origin[row] = spaceOrigin->empty() ? 0.0 : coordinate(*spaceOrigin, row);
