@@ -66,6 +66,23 @@ TEST(FanDistances, AWitnessWithoutATriangleOfItsSheetIsFar)
   EXPECT_FALSE(distances.FindNearest(1e9, numbers));
 }
 
+TEST(FanDistances, TrianglesWhoseNumbersHaveNoRoomAreRefused)
+{
+  itk::FanDistances distances;
+  std::vector<std::uint16_t> numbers;
+  distances.Begin(1);
+  distances.SetWitness(0, { 0.2, 0.2, 0.5 }, 0);
+  for (std::size_t n = 1; n < itk::FanDistances::MostTriangles; ++n)
+  {
+    distances.AddTriangle({ -1, 0, 0 }, { 0, -1, 0 }, 0);
+  }
+  distances.AddTriangle({ 1, 0, 0 }, { 0, 1, 0 }, 0); // the nearest, the last with a number
+  ASSERT_TRUE(distances.FindNearest(0.26, numbers));
+  EXPECT_EQ(numbers[0], itk::FanDistances::MostTriangles - 1);
+  distances.AddTriangle({ 1, 0, 0 }, { 0, 1, 0 }, 0);
+  EXPECT_FALSE(distances.FindNearest(0.26, numbers));
+}
+
 TEST(NearbyTriangles, TheNearestIsThatOfASearchOneByOne)
 {
   std::mt19937 random(6);

@@ -147,6 +147,10 @@ TriangleTerms::TriangleTerms(const PositionType & b, const PositionType & c)
 bool
 FanDistances::FindNearest(double squaredDistance, std::vector<std::uint16_t> & numbers)
 {
+  if (m_Triangles.size() > MostTriangles)
+  {
+    return false;
+  }
   m_Nearest.resize(2 * m_Stride);
   HWY_DYNAMIC_DISPATCH(NearestOfFan)
   (m_Values.data(), m_Stride, m_Triangles.data(), m_Sheets.data(), m_Triangles.size(), m_Nearest.data());

@@ -75,11 +75,12 @@ public:
   }
 
   /** Finds for each witness the number of the nearest triangle, the first of several. Returns whether all are within a
-   * distance. */
+   * distance; false also for more triangles than MostTriangles, whose numbers have no room. */
   bool
   FindNearest(double squaredDistance, std::vector<std::uint16_t> & numbers);
 
   static constexpr std::size_t MostLanes = 8; ///< of vectors of doubles
+  static constexpr std::size_t MostTriangles = 1U << 16U;
 
 private:
   std::size_t m_Size = 0;
