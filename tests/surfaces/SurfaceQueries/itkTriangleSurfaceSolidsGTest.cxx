@@ -131,14 +131,14 @@ TEST(TriangleSurfaceSolids, AreToldApartAmongVeryMany)
 itk::SizeValueType
 CountMisfacing(const Surface & surface)
 {
-  return CountTriangleSurfaceShells(itk::TriangleTree(surface)).misfacing;
+  return CountTriangleSurfaceShells(surface).misfacing;
 }
 
 TEST(TriangleSurfaceSolids, FaceOutwardsAndTheirCavitiesInwards)
 {
   const auto surface = MakeNested();
   EXPECT_EQ(CountMisfacing(*surface), 0u);
-  const itk::ShellCounts shells = CountTriangleSurfaceShells(itk::TriangleTree(*surface));
+  const itk::ShellCounts shells = CountTriangleSurfaceShells(*surface);
   EXPECT_EQ(shells.solids, 3u);
   EXPECT_EQ(shells.cavities, 2u);
   EXPECT_EQ(CountMisfacing(*Surface::New()), 0u);

@@ -311,8 +311,7 @@ RefineSurface(itk::TriangleSurface & surface,
   {
     refinement.untangling = untangled;
   }
-  refinement.shellsTurned =
-    tree ? TurnMisfacingTriangleSurfaceShells(surface, *tree) : TurnMisfacingTriangleSurfaceShells(surface);
+  refinement.shellsTurned = TurnMisfacingTriangleSurfaceShells(surface);
   return refinement;
 }
 

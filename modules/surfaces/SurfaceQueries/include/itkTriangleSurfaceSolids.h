@@ -1,7 +1,7 @@
 #ifndef itkTriangleSurfaceSolids_h
 #define itkTriangleSurfaceSolids_h
 
-#include "itkTriangleTree.h"
+#include "itkTriangleSurface.h"
 
 namespace itk
 {
@@ -63,16 +63,12 @@ FillTriangleSurfaceCavities(TriangleSurface & surface);
  * its inside twice or negatively. Where components cross or touch, the winding number depends on the point; this looks
  * at the points of each shell with the least and the greatest x, and one correct winding number is enough. */
 ShellCounts
-CountTriangleSurfaceShells(const TriangleTree & surface);
+CountTriangleSurfaceShells(const TriangleSurface & surface);
 
 /** Reverses the triangles and normals of the components that CountTriangleSurfaceShells() counts as misfacing; returns
  * how many. Meant for specks that extraction or smoothing has turned inside out. */
 SizeValueType
 TurnMisfacingTriangleSurfaceShells(TriangleSurface & surface);
-
-/** The same with a tree of the surface, which stays valid. */
-SizeValueType
-TurnMisfacingTriangleSurfaceShells(TriangleSurface & surface, const TriangleTree & tree);
 
 } // namespace itk
 

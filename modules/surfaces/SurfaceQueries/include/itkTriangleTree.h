@@ -115,12 +115,16 @@ public:
   {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     this->VisitTriangles({ point, { point[0], point[1], infinity } }, [&](std::uint32_t triangle) {
-      if (const int turns = this->CountTurns(point, triangle))
+      if (const int turns = CountTurns(*m_Surface, point, triangle))
       {
         visit(triangle, turns);
       }
     });
   }
+
+  /** How VisitCrossings() counts the crossing of the ray from \a point with one triangle; 0 if it does not cross. */
+  static int
+  CountTurns(const TriangleSurface & surface, const PointType & point, std::uint32_t triangle);
 
   Box
   GetTriangleBox(std::uint32_t triangle) const
@@ -274,9 +278,6 @@ private:
 
   void
   ImproveClosestPoint(const PositionType & position, std::uint32_t triangle, ClosestPoint & closest) const;
-
-  int
-  CountTurns(const PointType & point, std::uint32_t triangle) const;
 
   TriangleSurface::ConstPointer m_Surface;
   std::vector<std::uint32_t> m_Order;    ///< ids of the triangles, leaf by leaf

@@ -21,7 +21,7 @@ AuditTriangleSurface(const TriangleSurface & surface, const TriangleSurfaceAudit
   const TriangleTree tree(surface);
   if (audit.topology.IsWatertight())
   {
-    audit.shells = CountTriangleSurfaceShells(tree);
+    audit.shells = CountTriangleSurfaceShells(surface);
   }
   if (settings.testsIntersections)
   {

@@ -1,12 +1,16 @@
 #include "itkTriangleSurfaceSolids.h"
 
+#include "detail/itkPositionArithmetic.h"
 #include "rhombicForEachBlock.h"
 #include "itkTriangleSurfaceTopology.h"
 #include "itkTriangleSurfaceMeasures.h"
 #include "itkTriangleTree.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <utility>
 
 namespace itk
@@ -18,33 +22,21 @@ using ComponentId = std::uint32_t;
 using PointId = std::uint32_t;
 
 constexpr std::size_t BlockOfComponents = 64;
-
-/** Calls \a visit(component, turns) for the crossings of the ray along +z from a point with other components than its
- * own, see TriangleTree::VisitCrossings(). */
-template <typename TVisitor>
-void
-VisitOtherComponents(const TriangleTree & tree,
-                     const TriangleSurfaceComponents & components,
-                     PointId point,
-                     const TVisitor & visit)
-{
-  const TriangleSurface & surface = tree.GetSurface();
-  tree.VisitCrossings(surface.GetPoints()[point], [&](std::uint32_t triangle, int turns) {
-    const ComponentId crossed = components.ofPoint[surface.GetTriangles()[triangle][0]];
-    if (crossed != components.ofPoint[point])
-    {
-      visit(crossed, turns);
-    }
-  });
-}
+constexpr std::size_t BlockOfTriangles = 16384;
 
 /** The components, other than its own, that wind around a point, in ascending order. */
 std::vector<ComponentId>
 FindEnclosing(const TriangleTree & tree, const TriangleSurfaceComponents & components, PointId point)
 {
+  const TriangleSurface & surface = tree.GetSurface();
   std::vector<std::pair<ComponentId, int>> crossings;
-  VisitOtherComponents(
-    tree, components, point, [&](ComponentId component, int turns) { crossings.emplace_back(component, turns); });
+  tree.VisitCrossings(surface.GetPoints()[point], [&](std::uint32_t triangle, int turns) {
+    const ComponentId crossed = components.ofPoint[surface.GetTriangles()[triangle][0]];
+    if (crossed != components.ofPoint[point])
+    {
+      crossings.emplace_back(crossed, turns);
+    }
+  });
   std::sort(crossings.begin(), crossings.end());
   std::vector<ComponentId> enclosing;
   for (std::size_t begin = 0, end = 0; begin < crossings.size(); begin = end)
@@ -62,13 +54,118 @@ FindEnclosing(const TriangleTree & tree, const TriangleSurfaceComponents & compo
   return enclosing;
 }
 
-/** How often all components but its own wind around a point. */
-int
-CountWindings(const TriangleTree & tree, const TriangleSurfaceComponents & components, PointId point)
+/** \class PointColumns
+ * \brief Some points of a surface, in the cells of a grid across z: those below or in the box of a triangle are found
+ * without a look at the others. */
+class PointColumns
 {
-  int windings = 0;
-  VisitOtherComponents(tree, components, point, [&windings](ComponentId, int turns) { windings += turns; });
-  return windings;
+public:
+  PointColumns(const TriangleSurface & surface, const std::vector<PointId> & points)
+    : m_Size(std::clamp<std::size_t>(static_cast<std::size_t>(std::sqrt(8.0 * points.size())), 256, MostCells))
+    , m_Ends(m_Size * m_Size)
+    , m_Places(points.size())
+  {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    std::array<float, 2> highest{ -infinity, -infinity };
+    m_Lowest = { infinity, infinity };
+    for (const PointId point : points)
+    {
+      for (unsigned int axis = 0; axis < 2; ++axis)
+      {
+        m_Lowest[axis] = std::min(m_Lowest[axis], surface.GetPoints()[point][axis]);
+        highest[axis] = std::max(highest[axis], surface.GetPoints()[point][axis]);
+      }
+    }
+    for (unsigned int axis = 0; axis < 2; ++axis)
+    {
+      const float length = highest[axis] - m_Lowest[axis];
+      m_CellsPerMillimetre[axis] = length > 0.0f ? static_cast<float>(m_Size) / length : 0.0f;
+    }
+    const auto cellOf = [&](PointId point) {
+      const auto & position = surface.GetPoints()[point];
+      return this->CellOf(position[1], 1) * m_Size + this->CellOf(position[0], 0);
+    };
+    for (const PointId point : points)
+    {
+      ++m_Ends[cellOf(point)];
+    }
+    std::partial_sum(m_Ends.begin(), m_Ends.end(), m_Ends.begin());
+    // Filled in from the last one on, the sums move to where each cell begins; its end is where the next one begins.
+    for (std::size_t n = points.size(); n-- > 0;)
+    {
+      m_Places[--m_Ends[cellOf(points[n])]] = { surface.GetPoints()[points[n]], static_cast<std::uint32_t>(n) };
+    }
+    m_Ends.push_back(static_cast<std::uint32_t>(points.size()));
+  }
+
+  /** Calls \a visit(n) for each point, number n, from which a ray along +z meets the box. */
+  template <typename TVisitor>
+  void
+  VisitBelow(const TriangleTree::Box & box, const TVisitor & visit) const
+  {
+    const std::size_t left = this->CellOf(box.lowest[0], 0), right = this->CellOf(box.highest[0], 0);
+    const std::size_t last = this->CellOf(box.highest[1], 1);
+    for (std::size_t row = this->CellOf(box.lowest[1], 1); row <= last; ++row)
+    {
+      for (std::size_t n = m_Ends[row * m_Size + left]; n < m_Ends[row * m_Size + right + 1]; ++n)
+      {
+        const auto & [x, y, z] = m_Places[n].position;
+        if (x >= box.lowest[0] && x <= box.highest[0] && y >= box.lowest[1] && y <= box.highest[1] &&
+            z <= box.highest[2])
+        {
+          visit(m_Places[n].number);
+        }
+      }
+    }
+  }
+
+private:
+  static constexpr std::size_t MostCells = 4096; ///< along an axis
+
+  struct Place
+  {
+    TriangleTree::PointType position;
+    std::uint32_t number;
+  };
+
+  std::size_t
+  CellOf(float coordinate, unsigned int axis) const
+  {
+    const float cell = (coordinate - m_Lowest[axis]) * m_CellsPerMillimetre[axis];
+    return static_cast<std::uint32_t>(static_cast<int>(std::min(static_cast<float>(m_Size - 1), std::max(0.0f, cell))));
+  }
+
+  std::size_t m_Size; ///< number of cells along each axis
+  std::array<float, 2> m_Lowest;
+  std::array<float, 2> m_CellsPerMillimetre;
+  std::vector<std::uint32_t> m_Ends; ///< where the places of each cell begin, and the end of the last
+  std::vector<Place> m_Places;       ///< cell by cell
+};
+
+/** For each of some points, how often all components but its own wind around it. */
+std::vector<int>
+CountWindings(const TriangleSurface & surface,
+              const TriangleSurfaceComponents & components,
+              const std::vector<PointId> & points)
+{
+  std::vector<std::atomic<int>> windings(points.size());
+  if (components.count > 1 && !points.empty())
+  {
+    const PointColumns columns(surface, points);
+    rhombic::ForEachInBlocks(surface.GetNumberOfTriangles(), BlockOfTriangles, [&](std::size_t id) {
+      const auto & corners = surface.GetTriangles()[id];
+      columns.VisitBelow(TriangleTree::BoxOf(surface.GetPoints(), corners), [&](std::size_t n) {
+        const auto isPlaced = [&](PointId corner) { return IsFinite(surface.GetPoints()[corner]); };
+        if (components.ofPoint[corners[0]] != components.ofPoint[points[n]] &&
+            std::all_of(corners.begin(), corners.end(), isPlaced))
+        {
+          const auto triangle = static_cast<std::uint32_t>(id);
+          windings[n] += TriangleTree::CountTurns(surface, surface.GetPoints()[points[n]], triangle);
+        }
+      });
+    });
+  }
+  return { windings.begin(), windings.end() };
 }
 
 /** For each component, the outer shell of its solid. */
@@ -99,45 +196,56 @@ FindOuterShells(const TriangleSurface & surface,
   return shells;
 }
 
-/** The points of a component with the least and the greatest x. */
-struct Ends
-{
-  PointId least;
-  PointId greatest;
-};
-
-std::vector<Ends>
+/** For each component, its point with the least x, and the one with the greatest. */
+std::array<std::vector<PointId>, 2>
 FindEnds(const TriangleSurface & surface, const TriangleSurfaceComponents & components)
 {
   const auto & points = surface.GetPoints();
-  std::vector<Ends> ends(components.count);
-  const std::vector<PointId> first = FindTriangleSurfaceFirstPoints(components);
-  std::transform(first.begin(), first.end(), ends.begin(), [](PointId point) { return Ends{ point, point }; });
+  std::vector<PointId> least = FindTriangleSurfaceFirstPoints(components);
+  std::vector<PointId> greatest = least;
   for (PointId point = 0; point < points.size(); ++point)
   {
-    if (components.ofPoint[point] != TriangleSurfaceComponents::None)
+    if (const ComponentId component = components.ofPoint[point]; component != TriangleSurfaceComponents::None)
     {
-      Ends & found = ends[components.ofPoint[point]];
-      found.least = points[point][0] < points[found.least][0] ? point : found.least;
-      found.greatest = points[point][0] > points[found.greatest][0] ? point : found.greatest;
+      PointId & low = least[component];
+      PointId & high = greatest[component];
+      low = points[point][0] < points[low][0] ? point : low;
+      high = points[point][0] > points[high][0] ? point : high;
     }
   }
-  return ends;
+  return { least, greatest };
 }
 
 /** For each component, 1 if it is misfacing, see CountTriangleSurfaceShells(), else 0. */
 std::vector<std::uint8_t>
-FindMisfacing(const TriangleTree & tree,
+FindMisfacing(const TriangleSurface & surface,
               const TriangleSurfaceComponents & components,
               const std::vector<double> & volumes)
 {
-  const std::vector<Ends> ends = FindEnds(tree.GetSurface(), components);
+  std::vector<ComponentId> suspects(components.count);
+  std::iota(suspects.begin(), suspects.end(), 0);
+  for (const std::vector<PointId> & ends : FindEnds(surface, components))
+  {
+    std::vector<PointId> points(suspects.size());
+    std::transform(
+      suspects.begin(), suspects.end(), points.begin(), [&ends](ComponentId component) { return ends[component]; });
+    const std::vector<int> windings = CountWindings(surface, components, points);
+    std::vector<ComponentId> left;
+    for (std::size_t n = 0; n < suspects.size(); ++n)
+    {
+      const int expected = volumes[suspects[n]] < 0.0 ? 1 : 0;
+      if (windings[n] != expected)
+      {
+        left.push_back(suspects[n]);
+      }
+    }
+    suspects.swap(left);
+  }
   std::vector<std::uint8_t> misfacing(components.count);
-  rhombic::ForEachInBlocks(components.count, BlockOfComponents, [&](std::size_t component) {
-    const int expected = volumes[component] < 0.0 ? 1 : 0;
-    misfacing[component] = CountWindings(tree, components, ends[component].least) != expected &&
-                           CountWindings(tree, components, ends[component].greatest) != expected;
-  });
+  for (const ComponentId component : suspects)
+  {
+    misfacing[component] = 1;
+  }
   return misfacing;
 }
 
@@ -233,10 +341,10 @@ FillTriangleSurfaceCavities(TriangleSurface & surface)
 }
 
 ShellCounts
-CountTriangleSurfaceShells(const TriangleTree & surface)
+CountTriangleSurfaceShells(const TriangleSurface & surface)
 {
-  const TriangleSurfaceComponents components = FindTriangleSurfaceComponents(surface.GetSurface());
-  const std::vector<double> volumes = ComputeTriangleSurfaceComponentVolumes(surface.GetSurface(), components);
+  const TriangleSurfaceComponents components = FindTriangleSurfaceComponents(surface);
+  const std::vector<double> volumes = ComputeTriangleSurfaceComponentVolumes(surface, components);
   const std::vector<std::uint8_t> misfacing = FindMisfacing(surface, components, volumes);
   ShellCounts counts;
   for (ComponentId component = 0; component < components.count; ++component)
@@ -250,15 +358,9 @@ CountTriangleSurfaceShells(const TriangleTree & surface)
 SizeValueType
 TurnMisfacingTriangleSurfaceShells(TriangleSurface & surface)
 {
-  return TurnMisfacingTriangleSurfaceShells(surface, TriangleTree(surface));
-}
-
-SizeValueType
-TurnMisfacingTriangleSurfaceShells(TriangleSurface & surface, const TriangleTree & tree)
-{
   const TriangleSurfaceComponents components = FindTriangleSurfaceComponents(surface);
   const std::vector<std::uint8_t> misfacing =
-    FindMisfacing(tree, components, ComputeTriangleSurfaceComponentVolumes(surface, components));
+    FindMisfacing(surface, components, ComputeTriangleSurfaceComponentVolumes(surface, components));
   for (auto & triangle : surface.GetTriangles())
   {
     if (misfacing[components.ofPoint[triangle[0]]])

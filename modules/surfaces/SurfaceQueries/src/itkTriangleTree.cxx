@@ -581,10 +581,10 @@ TriangleTree::ImproveClosestPoint(const PositionType & position, std::uint32_t t
 /** The ray crosses the triangle if the shifted point is inside the triangle as seen along z, and is behind a triangle
  * that faces up or in front of a triangle that faces down. */
 int
-TriangleTree::CountTurns(const PointType & point, std::uint32_t triangle) const
+TriangleTree::CountTurns(const TriangleSurface & surface, const PointType & point, std::uint32_t triangle)
 {
-  const auto & corners = m_Surface->GetTriangles()[triangle];
-  const auto & points = m_Surface->GetPoints();
+  const auto & corners = surface.GetTriangles()[triangle];
+  const auto & points = surface.GetPoints();
   const auto & a = points[corners[0]];
   const auto & b = points[corners[1]];
   const auto & c = points[corners[2]];
