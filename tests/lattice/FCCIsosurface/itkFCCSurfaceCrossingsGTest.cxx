@@ -1,3 +1,4 @@
+#include "detail/itkTriangleGrid.h"
 #include "detail/itkTrianglesOfPoints.h"
 #include "itkFCCIsosurfaceFilter.h"
 
@@ -136,6 +137,25 @@ TEST_P(FCCSurfaceCrossings, OfMovedWallsAreNearThem)
               FindCrossingTriangles(itk::TriangleTree(*surface), fans))
       << seed;
   }
+}
+
+/** In the other modes all triangles are searched: with a grid, which finds what a tree finds. */
+TEST(FCCSurfaceCrossingsInAGrid, AreThoseOfATree)
+{
+  unsigned int crossing = 0;
+  for (unsigned int seed = 0; seed < 150; ++seed)
+  {
+    const Mode mode = seed % 3 == 0 ? Mode::Lean : seed % 3 == 1 ? Mode::Octahedra : Mode::Parallelepipeds;
+    const auto surface = Extract(MakeUnevenNoise(seed, seed % 4 == 0 ? 1000.0 : 0.0, { { 9, 14, 14 } }), mode);
+    const itk::TrianglesOfPoints fans(*surface);
+    const auto grid = itk::TriangleGrid::Make(*surface);
+    ASSERT_TRUE(grid) << seed;
+    rhombic::StagedProgress silent({});
+    const auto found = FindCrossingTriangles(*grid, fans, silent, 1.0);
+    EXPECT_EQ(found, FindCrossingTriangles(itk::TriangleTree(*surface), fans)) << seed;
+    crossing += found.empty() ? 0 : 1;
+  }
+  EXPECT_GT(crossing, 30u) << "the test's own volumes";
 }
 
 INSTANTIATE_TEST_SUITE_P(All, FCCSurfaceCrossings, testing::Values(Mode::Tetrahedra, Mode::Fine));

@@ -1,5 +1,6 @@
 #include "itkTriangleSurfaceUntangling.h"
 
+#include "detail/itkTrianglesOfPoints.h"
 #include "itkExampleSurfaces.h"
 #include "itkTriangleSurfaceIntersections.h"
 #include "itkTriangleSurfaceMeasures.h"
@@ -88,6 +89,8 @@ TEST(TriangleSurfaceUntangling, DoesNotMakeThingsWorseWhereItCannotHelp)
   const auto report = UntangleTriangleSurface(*surface, 0.5);
   EXPECT_GT(report.crossingAfter, 0u);
   EXPECT_LE(report.crossingAfter, report.crossingBefore);
+  EXPECT_EQ(report.crossingAfter,
+            FindCrossingTriangles(itk::TriangleTree(*surface), itk::TrianglesOfPoints(*surface)).size());
   EXPECT_LE(CrossingsOf(*surface), 2 * before);
   EXPECT_LE(report.largestMove, 0.5);
   EXPECT_TRUE(itk::ComputeTriangleSurfaceTopology(*surface).IsWatertight());

@@ -1,3 +1,4 @@
+#include "detail/itkTriangleGrid.h"
 #include "detail/itkTrianglesOfPoints.h"
 #include "itkTriangleSurfaceAudit.h"
 
@@ -110,7 +111,7 @@ TEST(TriangleSurfaceIntersections, OfFoldsAndPiercedNeighbours)
 /** Closed surfaces from smooth to crumpled, with holes, several fans at a point, and flat parts. */
 TEST(TriangleSurfaceIntersections, OfJoinedTrianglesAreThoseOfAllPairs)
 {
-  itk::SizeValueType surfacesWithout = 0, surfacesWith = 0;
+  itk::SizeValueType surfacesWithout = 0, surfacesWith = 0, grids = 0;
   for (unsigned int seed = 0; seed < 60; ++seed)
   {
     const auto surface = MakeSphere(10.0, 3);
@@ -159,12 +160,20 @@ TEST(TriangleSurfaceIntersections, OfJoinedTrianglesAreThoseOfAllPairs)
     const auto intersections = Intersect(*surface);
     EXPECT_EQ(intersections.crossingPairs, crossing) << seed;
     EXPECT_EQ(intersections.touchingPairs, touching) << seed;
-    EXPECT_EQ(FindCrossingTriangles(itk::TriangleTree(*surface), itk::TrianglesOfPoints(*surface)),
-              std::vector<std::uint32_t>(found.begin(), found.end()));
+    const std::vector<std::uint32_t> ofPairs(found.begin(), found.end());
+    const itk::TrianglesOfPoints fans(*surface);
+    EXPECT_EQ(FindCrossingTriangles(itk::TriangleTree(*surface), fans), ofPairs);
+    if (const auto grid = itk::TriangleGrid::Make(*surface))
+    {
+      rhombic::StagedProgress silent({});
+      EXPECT_EQ(FindCrossingTriangles(*grid, fans, silent, 1.0), ofPairs) << seed;
+      ++grids;
+    }
     ++(crossing == 0 ? surfacesWithout : surfacesWith);
   }
   EXPECT_GE(surfacesWithout, 4u) << "the test's own surfaces";
   EXPECT_GE(surfacesWith, 20u) << "the test's own surfaces";
+  EXPECT_GE(grids, 20u) << "the test's own surfaces";
 }
 
 TEST(TriangleSurfaceIntersections, OfASampleSaySo)

@@ -26,18 +26,14 @@ struct TriangleSurfaceUntanglingReport
  * has the fewest crossing triangles and no triangle without area. If triangles cross then, as many rounds follow from
  * that state, in which only moves stay after which fewer triangles cross.
  *
+ * Triangles cross only where \a candidates say, if there are any, and are only searched there. \a report receives the
+ * share of the work that is done; its exceptions leave the surface partly untangled.
+ *
  * Runs on several threads, with the same bytes for any number of them; time is one search for crossings plus rounds
- * over the crossing triangles only. Memory about 60 bytes per triangle. Throws ExceptionObject if \a maximumMove is not
+ * over the crossing triangles only. Memory about 40 bytes per triangle. Throws ExceptionObject if \a maximumMove is not
  * above 0 or not finite. */
 TriangleSurfaceUntanglingReport
-UntangleTriangleSurface(TriangleSurface & surface, double maximumMove);
-
-/** The same with a tree of the surface, which is refitted if points move. Triangles cross only where \a candidates say,
- * if there are any, and are only searched there. \a report receives the share of the work that is done; its exceptions
- * leave the surface partly untangled. */
-TriangleSurfaceUntanglingReport
 UntangleTriangleSurface(TriangleSurface & surface,
-                        TriangleTree & tree,
                         double maximumMove,
                         const std::optional<CrossingCandidates> & candidates = std::nullopt,
                         const rhombic::ProgressFunction & report = {});

@@ -3,6 +3,7 @@
 #include "detail/itkPositionArithmetic.h"
 #include "itkTriangleSurfaceIntersections.h"
 #include "itkTriangleTree.h"
+#include "detail/itkTriangleGrid.h"
 #include "detail/itkTrianglesOfPoints.h"
 
 #include <algorithm>
@@ -44,6 +45,19 @@ FindPoints(const TriangleSurface & surface, const TrianglesOfPoints & fans, cons
     SortUnique(points);
   }
   return points;
+}
+
+/** The triangles at some points. */
+Ids
+FindTriangles(const TrianglesOfPoints & fans, const Ids & points)
+{
+  Ids triangles;
+  for (const std::uint32_t point : points)
+  {
+    fans.VisitTriangles(point, [&](std::uint32_t triangle) { triangles.push_back(triangle); });
+  }
+  SortUnique(triangles);
+  return triangles;
 }
 
 /** Half way to the mean of the neighbours, each of which counts once for each triangle at the point. */
@@ -141,11 +155,103 @@ enum class KeptRounds
   Better ///< those after which fewer triangles cross; the moves of others are undone
 };
 
+/** \class SearchedTriangles
+ * \brief The triangles among which untangling looks for crossings: those near triangles that have moved. */
+class SearchedTriangles
+{
+public:
+  /** \param grid nothing to search all triangles
+   *  \param triangles about which will move */
+  SearchedTriangles(const TriangleSurface & surface, const std::optional<TriangleGrid> & grid, const Ids & triangles)
+    : m_Surface(surface)
+    , m_Grid(grid)
+  {
+    if (!m_Grid)
+    {
+      m_Trees.emplace_back(surface);
+      return;
+    }
+    TriangleGridRegion & region = m_Regions.emplace_back(*m_Grid);
+    for (const std::uint32_t triangle : triangles)
+    {
+      region.Add(TriangleTree::BoxOf(surface.GetPoints(), surface.GetTriangles()[triangle]));
+    }
+    m_Trees.emplace_back(surface, region.FindTriangles());
+  }
+
+  /** The triangles of \a moved that cross others, and these others. */
+  Ids
+  FindCrossing(const TrianglesOfPoints & fans, const Ids & moved) const
+  {
+    Ids crossing;
+    for (const TriangleTree & tree : m_Trees)
+    {
+      const Ids found = FindCrossingTriangles(tree, fans, moved);
+      crossing.insert(crossing.end(), found.begin(), found.end());
+    }
+    SortUnique(crossing);
+    return crossing;
+  }
+
+  /** Must be called when triangles have moved, with their boxes before that. */
+  void
+  Follow(const Ids & moved, const std::vector<TriangleTree::Box> & before)
+  {
+    std::optional<TriangleGridRegion> added;
+    for (std::size_t n = 0; n < moved.size(); ++n)
+    {
+      const auto after = TriangleTree::BoxOf(m_Surface.GetPoints(), m_Surface.GetTriangles()[moved[n]]);
+      for (const TriangleTree::Box & box : { before[n], after })
+      {
+        if (m_Grid && !this->Hold(box))
+        {
+          (added ? *added : added.emplace(*m_Grid)).Add(Enlarged(box));
+        }
+      }
+      for (TriangleTree & tree : m_Trees)
+      {
+        tree.Enlarge(before[n], after);
+      }
+    }
+    if (added)
+    {
+      m_Trees.emplace_back(m_Surface, added->FindTriangles());
+      m_Regions.push_back(std::move(*added));
+    }
+  }
+
+private:
+  bool
+  Hold(const TriangleTree::Box & box) const
+  {
+    return std::any_of(m_Regions.begin(), m_Regions.end(), [&box](const auto & region) { return region.Holds(box); });
+  }
+
+  /** The box with some of its own size around it, so that regions are not added often. */
+  static TriangleTree::Box
+  Enlarged(TriangleTree::Box box)
+  {
+    constexpr float sizes = 3.0f;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      const float margin = sizes * (box.highest[axis] - box.lowest[axis]);
+      box.lowest[axis] -= margin;
+      box.highest[axis] += margin;
+    }
+    return box;
+  }
+
+  const TriangleSurface & m_Surface;
+  const std::optional<TriangleGrid> & m_Grid;
+  std::vector<TriangleGridRegion> m_Regions; ///< each triangle that has moved is in one as it was and as it is
+  std::vector<TriangleTree> m_Trees;         ///< of the triangles that meet each region
+};
+
 /** Moves points in rounds, notes where they were in \a original, and leaves the surface in the best state found.
  * Returns the crossing triangles then. */
 Ids
 Untangle(TriangleSurface & surface,
-         TriangleTree & tree,
+         SearchedTriangles & searched,
          const TrianglesOfPoints & fans,
          double maximumMove,
          KeptRounds kept,
@@ -165,24 +271,16 @@ Untangle(TriangleSurface & surface,
   for (int round = 0; round < MostUntanglingRounds && round <= lastBetter + Patience && !crossing.empty(); ++round)
   {
     const Ids points = FindPoints(surface, fans, crossing, round % 4 == 3);
-    Ids changed; // all triangles that crossed others are among them
-    for (const std::uint32_t point : points)
-    {
-      fans.VisitTriangles(point, [&](std::uint32_t triangle) { changed.push_back(triangle); });
-    }
-    SortUnique(changed);
+    const Ids changed = FindTriangles(fans, points); // all triangles that crossed others are among them
     std::vector<TriangleTree::Box> before;
     std::transform(changed.begin(), changed.end(), std::back_inserter(before), [&](std::uint32_t triangle) {
-      return tree.GetTriangleBox(triangle);
+      return TriangleTree::BoxOf(surface.GetPoints(), surface.GetTriangles()[triangle]);
     });
     MovePoints(surface, fans, original, maximumMove, points, round);
-    for (std::size_t n = 0; n < changed.size(); ++n)
-    {
-      tree.Enlarge(before[n], tree.GetTriangleBox(changed[n]));
-    }
+    searched.Follow(changed, before);
     touched.insert(touched.end(), changed.begin(), changed.end());
     SortUnique(touched);
-    crossing = FindCrossingTriangles(tree, fans, changed);
+    crossing = searched.FindCrossing(fans, changed);
     progress.Completed(1);
     if (crossing.size() < fewest.size() && HaveAreas(surface, touched))
     {
@@ -207,15 +305,7 @@ Untangle(TriangleSurface & surface,
 } // namespace
 
 TriangleSurfaceUntanglingReport
-UntangleTriangleSurface(TriangleSurface & surface, double maximumMove)
-{
-  TriangleTree tree(surface);
-  return UntangleTriangleSurface(surface, tree, maximumMove);
-}
-
-TriangleSurfaceUntanglingReport
 UntangleTriangleSurface(TriangleSurface & surface,
-                        TriangleTree & tree,
                         double maximumMove,
                         const std::optional<CrossingCandidates> & candidates,
                         const rhombic::ProgressFunction & report)
@@ -226,18 +316,25 @@ UntangleTriangleSurface(TriangleSurface & surface,
   }
   rhombic::StagedProgress progress(report);
   const TrianglesOfPoints fans(surface);
+  std::optional<TriangleGrid> grid = candidates ? std::nullopt : TriangleGrid::Make(surface);
   Ids crossing = candidates ? FindCrossingTriangles(surface, fans, *candidates)
-                            : FindCrossingTriangles(tree, fans, TriangleContact::Crossing, &progress, 0.5);
+                 : grid     ? FindCrossingTriangles(*grid, fans, progress, 0.5)
+                        : FindCrossingTriangles(TriangleTree(surface), fans, TriangleContact::Crossing, &progress, 0.5);
   if (crossing.empty())
   {
     return {};
   }
-  Places original;
   TriangleSurfaceUntanglingReport result;
   result.crossingBefore = crossing.size();
+  if (!grid)
+  {
+    grid = TriangleGrid::Make(surface);
+  }
+  Places original;
+  SearchedTriangles searched(surface, grid, FindTriangles(fans, FindPoints(surface, fans, crossing, true)));
   for (const KeptRounds kept : { KeptRounds::All, KeptRounds::Better })
   {
-    crossing = Untangle(surface, tree, fans, maximumMove, kept, std::move(crossing), original, progress);
+    crossing = Untangle(surface, searched, fans, maximumMove, kept, std::move(crossing), original, progress);
   }
   result.crossingAfter = crossing.size();
   for (const auto & [point, place] : original)

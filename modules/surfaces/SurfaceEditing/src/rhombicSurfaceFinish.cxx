@@ -294,8 +294,7 @@ RefineSurface(itk::TriangleSurface & surface,
     itk::ComputeTriangleSurfaceVolume
   };
   const ProgressFunction report = ReportStep(events, "untangling " + name);
-  std::optional<itk::TriangleTree> tree;
-  const auto untangled = UntangleTriangleSurface(surface, tree.emplace(surface), spacing, candidates, report);
+  const auto untangled = UntangleTriangleSurface(surface, spacing, candidates, report);
   if (untangled.crossingAfter > 0)
   {
     events.Note(name + ": " + Count(untangled.crossingAfter, "triangle passes", "triangles pass") +
@@ -304,7 +303,6 @@ RefineSurface(itk::TriangleSurface & surface,
   Refinement refinement;
   if (!finish.smoothing.IsNothing() || finish.Simplifies())
   {
-    tree.reset();
     refinement = RefineBy(functions, surface, finish, spacing, name, events);
   }
   if (untangled.crossingBefore > 0)

@@ -24,6 +24,7 @@ FindContact(const TriangleSurface::PointsContainer & points,
             TriangleSurface::TriangleType first,
             TriangleSurface::TriangleType second);
 
+class TriangleGrid;
 class TrianglesOfPoints;
 
 /** \class TriangleSurfaceIntersections
@@ -58,7 +59,14 @@ FindCrossingTriangles(const TriangleTree & tree,
                       rhombic::StagedProgress * progress = nullptr,
                       double stageEnd = 1.0);
 
-/** The same for the triangles of \a candidates that cross any others, and for these others. */
+/** The triangles of a grid that cross others or are duplicates, ascending: half the time of the same with a tree. */
+std::vector<std::uint32_t>
+FindCrossingTriangles(const TriangleGrid & grid,
+                      const TrianglesOfPoints & fans,
+                      rhombic::StagedProgress & progress,
+                      double stageEnd);
+
+/** The triangles of \a candidates that cross any others, and these others. */
 std::vector<std::uint32_t>
 FindCrossingTriangles(const TriangleTree & tree,
                       const TrianglesOfPoints & fans,

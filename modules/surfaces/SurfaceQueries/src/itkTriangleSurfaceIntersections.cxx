@@ -1,11 +1,12 @@
 #include "itkTriangleSurfaceIntersections.h"
 
 #include "detail/itkPositionArithmetic.h"
+#include "detail/itkTriangleGrid.h"
 #include "detail/itkTrianglesOfPoints.h"
+#include "itkTriangleNeighborhood.h"
 #include "rhombicForEachBlock.h"
 
 #include <algorithm>
-#include <cstring>
 #include <mutex>
 #include <utility>
 
@@ -18,7 +19,7 @@ using Contact = TriangleContact;
 using Box = TriangleTree::Box;
 using TriangleType = TriangleSurface::TriangleType;
 
-constexpr std::size_t TrianglesOfPart = 256;
+constexpr std::size_t TrianglesOfPart = 64;
 constexpr std::size_t TrianglesOfSample = 32; // parts where not all are tested
 constexpr std::size_t PartsOfBlock = 16;
 constexpr std::size_t BlockOfPoints = 16384;
@@ -125,194 +126,6 @@ AreDuplicates(TriangleType a, TriangleType b)
   return a == b;
 }
 
-bool
-HaveCommonCorner(const TriangleType & a, const TriangleType & b)
-{
-  bool haveCommon = false;
-  for (const std::uint32_t corner : a)
-  {
-    haveCommon |= (corner == b[0]) | (corner == b[1]) | (corner == b[2]);
-  }
-  return haveCommon;
-}
-
-/** \class BoxList
- * \brief Boxes in steps of 1/255 of a box around some of them, so that sixteen are compared with one at once. The steps
- * keep the order of coordinates: boxes that overlap still do. */
-class BoxList
-{
-public:
-  using StepBox = std::array<std::uint8_t, 6>; ///< least x, y, z, greatest x, y, z
-
-  void
-  Clear()
-  {
-    m_Size = 0;
-  }
-
-  void
-  Add(const StepBox & box)
-  {
-    if (m_Size + Lanes > m_Sides[0].size())
-    {
-      for (auto & side : m_Sides)
-      {
-        side.resize(2 * side.size() + 16 * Lanes);
-      }
-    }
-    for (std::size_t side = 0; side < box.size(); ++side)
-    {
-      m_Sides[side][m_Size] = box[side];
-    }
-    ++m_Size;
-  }
-
-  StepBox
-  GetBox(std::size_t n) const
-  {
-    StepBox box;
-    for (std::size_t side = 0; side < box.size(); ++side)
-    {
-      box[side] = m_Sides[side][n];
-    }
-    return box;
-  }
-
-  /** Calls \a visit(n) for the boxes from number \a from on that overlap \a box. */
-  template <typename TVisitor>
-  void
-  VisitOverlapping(const StepBox & box, std::size_t from, const TVisitor & visit) const
-  {
-    const std::uint8_t *x0 = m_Sides[0].data(), *y0 = m_Sides[1].data(), *z0 = m_Sides[2].data();
-    const std::uint8_t *x1 = m_Sides[3].data(), *y1 = m_Sides[4].data(), *z1 = m_Sides[5].data();
-    const auto [lowX, lowY, lowZ, highX, highY, highZ] = box;
-    for (std::size_t begin = from; begin < m_Size; begin += Lanes)
-    {
-      std::array<std::uint8_t, Lanes> overlap;
-      for (std::size_t lane = 0; lane < Lanes; ++lane)
-      {
-        const std::size_t n = begin + lane;
-        overlap[lane] =
-          (x0[n] <= highX) & (lowX <= x1[n]) & (y0[n] <= highY) & (lowY <= y1[n]) & (z0[n] <= highZ) & (lowZ <= z1[n]);
-      }
-      for (std::size_t lane = 0; lane < Lanes; lane += sizeof(std::uint64_t))
-      {
-        std::uint64_t next;
-        std::memcpy(&next, overlap.data() + lane, sizeof(next));
-        for (; next != 0; next &= next - 1)
-        {
-          const std::size_t n = begin + lane + static_cast<std::size_t>(__builtin_ctzll(next)) / 8;
-          n < m_Size ? visit(n) : void();
-        }
-      }
-    }
-  }
-
-private:
-  static constexpr std::size_t Lanes = 16;
-
-  std::size_t m_Size = 0;
-  std::array<std::vector<std::uint8_t>, 6> m_Sides; ///< each with Lanes - 1 more elements at least
-};
-
-/** \class Neighborhood
- * \brief The triangles of a part of a surface, and those around it. */
-class Neighborhood
-{
-public:
-  /** A triangle, and those of its corners at which the surface is not folded; None for the others. */
-  struct Member
-  {
-    std::uint32_t triangle;
-    TriangleType unfoldedCorners;
-  };
-
-  /** Empties it, for a part within \a around. */
-  void
-  Start(const Box & around)
-  {
-    m_Members.clear();
-    m_Boxes.Clear();
-    m_Origin = around.lowest;
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      const float length = around.highest[axis] - around.lowest[axis];
-      m_StepsPerMillimetre[axis] = length > 256.0f / std::numeric_limits<float>::max() ? 255.0f / length : 0.0f;
-    }
-  }
-
-  void
-  Add(const Member & member, const Box & box)
-  {
-    m_Members.push_back(member);
-    BoxList::StepBox steps;
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      steps[axis] = this->StepOf(box.lowest[axis], axis);
-      steps[axis + 3] = this->StepOf(box.highest[axis], axis);
-    }
-    m_Boxes.Add(steps);
-  }
-
-  /** Calls \a visit(member, other) for pairs whose boxes overlap, or nearly, and whose first is among the first \a
-   * count members. */
-  template <typename TVisitor>
-  void
-  VisitPairs(std::size_t count, const TVisitor & visit)
-  {
-    constexpr std::size_t sizeOfGroup = 16;
-    for (std::size_t begin = 0; begin < count; begin += sizeOfGroup)
-    {
-      const std::size_t end = std::min(count, begin + sizeOfGroup);
-      this->FindNear(begin, end);
-      for (std::size_t n = begin; n < end; ++n)
-      {
-        m_NearBoxes.VisitOverlapping(
-          m_Boxes.GetBox(n), n - begin + 1, [&](std::size_t other) { visit(m_Members[n], m_Members[m_Near[other]]); });
-      }
-    }
-  }
-
-private:
-  std::uint8_t
-  StepOf(float coordinate, unsigned int axis) const
-  {
-    const float step = (coordinate - m_Origin[axis]) * m_StepsPerMillimetre[axis];
-    return static_cast<std::uint8_t>(static_cast<int>(std::min(255.0f, std::max(0.0f, step))));
-  }
-
-  /** Lists the members [begin, end) and those behind them whose boxes overlap the box around these. */
-  void
-  FindNear(std::size_t begin, std::size_t end)
-  {
-    BoxList::StepBox around = m_Boxes.GetBox(begin);
-    m_Near.clear();
-    m_NearBoxes.Clear();
-    const auto add = [this](std::size_t n) {
-      m_Near.push_back(static_cast<std::uint32_t>(n));
-      m_NearBoxes.Add(m_Boxes.GetBox(n));
-    };
-    for (std::size_t n = begin; n < end; ++n)
-    {
-      const BoxList::StepBox box = m_Boxes.GetBox(n);
-      for (unsigned int axis = 0; axis < 3; ++axis)
-      {
-        around[axis] = std::min(around[axis], box[axis]);
-        around[axis + 3] = std::max(around[axis + 3], box[axis + 3]);
-      }
-      add(n);
-    }
-    m_Boxes.VisitOverlapping(around, end, add);
-  }
-
-  std::vector<Member> m_Members;
-  BoxList m_Boxes; ///< of the members
-  TriangleTree::PointType m_Origin{};
-  TriangleTree::PointType m_StepsPerMillimetre{};
-  std::vector<std::uint32_t> m_Near; ///< numbers of members
-  BoxList m_NearBoxes;
-};
-
 /** \class ContactSearch
  * \brief Finds how the triangles of a surface meet elsewhere than at corners and sides they share.
  *
@@ -339,15 +152,15 @@ public:
    * visited. Every \a stride-th part is tested. Returns how many triangles the part has. \a near is for working. */
   template <typename TVisitor>
   std::size_t
-  TestPart(std::size_t part, std::size_t stride, Neighborhood & near, const TVisitor & visit) const
+  TestPart(std::size_t part, std::size_t stride, TriangleNeighborhood & near, const TVisitor & visit) const
   {
     const std::size_t begin = m_Parts[part];
     const std::size_t end = m_Parts[part + 1];
     const TriangleTree::Leaf ofPart = this->TrianglesOf(part);
-    const Box around = this->BoxAround(ofPart);
-    near.Start(around);
+    const Steps around(this->BoxAround(ofPart));
+    near.Clear();
     this->AddTriangles(ofPart, around, near);
-    m_Tree.VisitLeaves(around, stride == 1 ? end : 0, [&](std::size_t leaf) {
+    m_Tree.VisitLeaves(around.box, stride == 1 ? end : 0, [&](std::size_t leaf) {
       const bool isInPart = leaf >= begin && leaf < end;
       if (!isInPart && (leaf >= end || this->PartOf(leaf) % stride != 0))
       {
@@ -362,17 +175,56 @@ public:
    * same surface, which may hold the part's triangles, too: such pairs may come twice. */
   template <typename TVisitor>
   void
-  TestPartAgainst(const TriangleTree & others, std::size_t part, Neighborhood & near, const TVisitor & visit) const
+  TestPartAgainst(const TriangleTree & others,
+                  std::size_t part,
+                  TriangleNeighborhood & near,
+                  const TVisitor & visit) const
   {
     const TriangleTree::Leaf ofPart = this->TrianglesOf(part);
-    const Box around = this->BoxAround(ofPart);
-    near.Start(around);
+    const Steps around(this->BoxAround(ofPart));
+    near.Clear();
     this->AddTriangles(ofPart, around, near);
-    others.VisitLeaves(around, 0, [&](std::size_t leaf) { this->AddTriangles(others.GetLeaf(leaf), around, near); });
+    others.VisitLeaves(
+      around.box, 0, [&](std::size_t leaf) { this->AddTriangles(others.GetLeaf(leaf), around, near); });
     this->VisitContacts(near, ofPart.size(), visit);
   }
 
 private:
+  /** Steps of a box around the triangles of a part. */
+  struct Steps
+  {
+    explicit Steps(const Box & around)
+      : box(around)
+    {
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        const float length = box.highest[axis] - box.lowest[axis];
+        perMillimetre[axis] = length > 2.0f * most / std::numeric_limits<float>::max() ? most / length : 0.0f;
+      }
+    }
+
+    TriangleNeighborhood::StepBox
+    Of(const Box & other) const
+    {
+      TriangleNeighborhood::StepBox steps;
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        const auto stepOf = [&](float coordinate) {
+          const float step = (coordinate - box.lowest[axis]) * perMillimetre[axis];
+          return static_cast<std::int16_t>(std::min(most, std::max(0.0f, step)));
+        };
+        steps[axis] = stepOf(other.lowest[axis]);
+        steps[axis + 3] = stepOf(other.highest[axis]);
+      }
+      return steps;
+    }
+
+    static constexpr float most = 32000.0f;
+
+    Box box;
+    std::array<float, 3> perMillimetre;
+  };
+
   TriangleTree::Leaf
   TrianglesOf(std::size_t part) const
   {
@@ -393,33 +245,23 @@ private:
   /** Tests the pairs of a neighbourhood whose first is among the first \a count members. */
   template <typename TVisitor>
   void
-  VisitContacts(Neighborhood & near, std::size_t count, const TVisitor & visit) const
+  VisitContacts(TriangleNeighborhood & near, std::size_t count, const TVisitor & visit) const
   {
     const auto & triangles = m_Tree.GetSurface().GetTriangles();
-    near.VisitPairs(count, [&](const Neighborhood::Member & a, const Neighborhood::Member & b) {
-      if (a.triangle != b.triangle && !HaveCommonCorner(triangles[a.triangle], b.unfoldedCorners))
-      {
-        visit(a.triangle,
-              b.triangle,
-              FindContact(m_Tree.GetSurface().GetPoints(), triangles[a.triangle], triangles[b.triangle]));
-      }
+    near.VisitPairs(count, [&](std::uint32_t a, std::uint32_t b) {
+      visit(a, b, FindContact(m_Tree.GetSurface().GetPoints(), triangles[a], triangles[b]));
     });
   }
 
   void
-  AddTriangles(const TriangleTree::Leaf & triangles, const Box & around, Neighborhood & near) const
+  AddTriangles(const TriangleTree::Leaf & triangles, const Steps & around, TriangleNeighborhood & near) const
   {
     for (const std::uint32_t triangle : triangles)
     {
       const Box box = m_Tree.GetTriangleBox(triangle);
-      if (box.Overlaps(around))
+      if (box.Overlaps(around.box))
       {
-        TriangleType corners = m_Tree.GetSurface().GetTriangles()[triangle];
-        for (std::uint32_t & corner : corners)
-        {
-          corner = m_AreUnfolded[corner] ? corner : TriangleTree::None;
-        }
-        near.Add({ triangle, corners }, box);
+        near.Add(triangle, around.Of(box), m_AreUnfolded);
       }
     }
   }
@@ -446,7 +288,7 @@ FindAllCrossing(const TriangleTree & tree,
   const ContactSearch search(tree, std::move(areUnfolded), TrianglesOfPart);
   progress.Begin(stageEnd, search.GetNumberOfParts());
   return CollectIds(search.GetNumberOfParts(), PartsOfBlock, [&](std::size_t begin, std::size_t end, auto & found) {
-    Neighborhood near;
+    TriangleNeighborhood near(tree.GetSurface());
     for (std::size_t part = begin; part < end; ++part)
     {
       search.TestPart(part, 1, near, [&](std::uint32_t a, std::uint32_t b, Contact contact) {
@@ -457,6 +299,61 @@ FindAllCrossing(const TriangleTree & tree,
       });
     }
     progress.Completed(end - begin);
+  });
+}
+
+/** The same for the triangles of a grid. */
+std::vector<std::uint32_t>
+FindAllCrossing(const TriangleGrid & grid,
+                const std::vector<std::uint8_t> & areUnfolded,
+                rhombic::StagedProgress & progress,
+                double stageEnd)
+{
+  constexpr std::size_t rowsOfBlock = 16;
+  const TriangleSurface & surface = grid.GetSurface();
+  progress.Begin(stageEnd, grid.GetNumberOfRows());
+  return CollectIds(grid.GetNumberOfRows(), rowsOfBlock, [&](std::size_t firstRow, std::size_t lastRow, auto & found) {
+    TriangleNeighborhood near(surface);
+    TriangleNeighborhood::StepBox around; // the cell's triangles
+    std::size_t ofCell = 0;
+    const auto begin = [&](const TriangleGrid::Entry * first, const TriangleGrid::Entry * last) {
+      near.Clear();
+      around = first->box;
+      for (const TriangleGrid::Entry * entry = first; entry != last; ++entry)
+      {
+        near.Add(entry->triangle, entry->box, areUnfolded);
+        for (unsigned int axis = 0; axis < 3; ++axis)
+        {
+          around[axis] = std::min(around[axis], entry->box[axis]);
+          around[axis + 3] = std::max(around[axis + 3], entry->box[axis + 3]);
+        }
+      }
+      ofCell = near.GetSize();
+    };
+    const auto add = [&](const TriangleGrid::Entry * first, const TriangleGrid::Entry * last) {
+      for (const TriangleGrid::Entry * entry = first; entry != last; ++entry)
+      {
+        const auto & box = entry->box;
+        if ((box[0] <= around[3]) & (box[1] <= around[4]) & (box[2] <= around[5]) & (around[0] <= box[3]) &
+            (around[1] <= box[4]) & (around[2] <= box[5]))
+        {
+          near.Add(entry->triangle, box, areUnfolded);
+        }
+      }
+    };
+    const auto test = [&] {
+      near.VisitPairs(ofCell, [&](std::uint32_t a, std::uint32_t b) {
+        if (FindContact(surface.GetPoints(), surface.GetTriangles()[a], surface.GetTriangles()[b]) == Contact::Crossing)
+        {
+          found.insert(found.end(), { a, b });
+        }
+      });
+    };
+    for (std::size_t row = firstRow; row < lastRow; ++row)
+    {
+      grid.VisitCells(row, begin, add, test);
+    }
+    progress.Completed(lastRow - firstRow);
   });
 }
 
@@ -528,7 +425,7 @@ FindTriangleSurfaceSelfIntersections(const TriangleTree & tree, SizeValueType ma
       ofBlock.touchingPairs += contact == Contact::Touching ? 1 : 0;
       ofBlock.crossingPairs += contact == Contact::Crossing && !AreDuplicates(triangles[a], triangles[b]) ? 1 : 0;
     };
-    Neighborhood near;
+    TriangleNeighborhood near(tree.GetSurface());
     for (std::size_t part = (begin + stride - 1) / stride * stride; part < end; part += stride)
     {
       ofBlock.testedTriangles += search.TestPart(part, stride, near, count);
@@ -574,7 +471,7 @@ FindCrossingTriangles(const TriangleTree & tree,
   const TriangleTree ofCandidates(surface, candidates);
   const ContactSearch search(ofCandidates, std::move(areUnfolded), TrianglesOfSample);
   return CollectIds(search.GetNumberOfParts(), PartsOfBlock, [&](std::size_t begin, std::size_t end, auto & found) {
-    Neighborhood near;
+    TriangleNeighborhood near(tree.GetSurface());
     for (std::size_t part = begin; part < end; ++part)
     {
       search.TestPartAgainst(tree, part, near, [&](std::uint32_t a, std::uint32_t b, Contact contact) {
@@ -585,6 +482,15 @@ FindCrossingTriangles(const TriangleTree & tree,
       });
     }
   });
+}
+
+std::vector<std::uint32_t>
+FindCrossingTriangles(const TriangleGrid & grid,
+                      const TrianglesOfPoints & fans,
+                      rhombic::StagedProgress & progress,
+                      double stageEnd)
+{
+  return FindAllCrossing(grid, FindUnfoldedPoints(grid.GetSurface(), fans), progress, stageEnd);
 }
 
 double

@@ -22,7 +22,7 @@ using ComponentId = std::uint32_t;
 using PointId = std::uint32_t;
 
 constexpr std::size_t BlockOfComponents = 64;
-constexpr std::size_t BlockOfTriangles = 16384;
+constexpr std::size_t TrianglesOfRayBlock = 16384;
 
 /** The components, other than its own, that wind around a point, in ascending order. */
 std::vector<ComponentId>
@@ -152,7 +152,7 @@ CountWindings(const TriangleSurface & surface,
   if (components.count > 1 && !points.empty())
   {
     const PointColumns columns(surface, points);
-    rhombic::ForEachInBlocks(surface.GetNumberOfTriangles(), BlockOfTriangles, [&](std::size_t id) {
+    rhombic::ForEachInBlocks(surface.GetNumberOfTriangles(), TrianglesOfRayBlock, [&](std::size_t id) {
       const auto & corners = surface.GetTriangles()[id];
       columns.VisitBelow(TriangleTree::BoxOf(surface.GetPoints(), corners), [&](std::size_t n) {
         const auto isPlaced = [&](PointId corner) { return IsFinite(surface.GetPoints()[corner]); };

@@ -1,0 +1,75 @@
+#ifndef itkTriangleNeighborhood_h
+#define itkTriangleNeighborhood_h
+
+#include "itkTriangleSurface.h"
+
+namespace itk
+{
+
+/** \class TriangleNeighborhood
+ * \brief Some triangles of a surface in rows, so that one is compared with many at once. */
+class TriangleNeighborhood
+{
+public:
+  using TriangleType = TriangleSurface::TriangleType;
+
+  /** The box of a triangle in steps of some grid that keep the order of coordinates, so that boxes that overlap still
+   * do: least x, y, z, greatest x, y, z. */
+  using StepBox = std::array<std::int16_t, 6>;
+
+  explicit TriangleNeighborhood(const TriangleSurface & surface)
+    : m_Triangles(surface.GetTriangles())
+  {}
+
+  void
+  Clear()
+  {
+    m_Size = 0;
+  }
+
+  std::size_t
+  GetSize() const
+  {
+    return m_Size;
+  }
+
+  /** \param areUnfolded for each point of the surface, whether pairs of triangles at it are not looked for */
+  void
+  Add(std::uint32_t triangle, const StepBox & box, const std::vector<std::uint8_t> & areUnfolded);
+
+  /** Calls \a visit(a, b) for pairs of different triangles whose boxes overlap, which have no unfolded corner in
+   * common, and whose first is among the first \a count that were added. */
+  template <typename TVisitor>
+  void
+  VisitPairs(std::size_t count, const TVisitor & visit)
+  {
+    m_Others.resize(m_Size);
+    for (std::size_t n = 0; n < count; ++n)
+    {
+      const std::size_t others = this->FindOthers(n);
+      for (std::size_t k = 0; k < others; ++k)
+      {
+        if (m_Ids[n] != m_Ids[m_Others[k]])
+        {
+          visit(m_Ids[n], m_Ids[m_Others[k]]);
+        }
+      }
+    }
+  }
+
+private:
+  /** Writes to m_Others which triangles behind number n may meet it; returns how many. */
+  std::size_t
+  FindOthers(std::size_t n);
+
+  const TriangleSurface::TrianglesContainer & m_Triangles;
+  std::size_t m_Size = 0;
+  std::vector<std::uint32_t> m_Ids;
+  std::array<std::vector<std::int16_t>, 6> m_Sides;    ///< of the boxes
+  std::array<std::vector<std::uint32_t>, 3> m_Corners; ///< those that are unfolded; None for others
+  std::vector<std::uint32_t> m_Others;
+};
+
+} // namespace itk
+
+#endif
