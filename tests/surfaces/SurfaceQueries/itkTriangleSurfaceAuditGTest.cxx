@@ -163,10 +163,10 @@ TEST(TriangleSurfaceIntersections, OfJoinedTrianglesAreThoseOfAllPairs)
     const std::vector<std::uint32_t> ofPairs(found.begin(), found.end());
     const itk::TrianglesOfPoints fans(*surface);
     EXPECT_EQ(FindCrossingTriangles(itk::TriangleTree(*surface), fans), ofPairs);
-    if (const auto grid = itk::TriangleGrid::Make(*surface))
+    if (const auto grid = itk::TriangleGrid::Make(*surface, FindUnfoldedPoints(*surface, fans)))
     {
       rhombic::StagedProgress silent({});
-      EXPECT_EQ(FindCrossingTriangles(*grid, fans, silent, 1.0), ofPairs) << seed;
+      EXPECT_EQ(FindCrossingTriangles(*grid, silent, 1.0), ofPairs) << seed;
       ++grids;
     }
     ++(crossing == 0 ? surfacesWithout : surfacesWith);

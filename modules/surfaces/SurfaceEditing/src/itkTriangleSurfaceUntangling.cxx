@@ -316,9 +316,10 @@ UntangleTriangleSurface(TriangleSurface & surface,
   }
   rhombic::StagedProgress progress(report);
   const TrianglesOfPoints fans(surface);
-  std::optional<TriangleGrid> grid = candidates ? std::nullopt : TriangleGrid::Make(surface);
+  std::optional<TriangleGrid> grid =
+    candidates ? std::nullopt : TriangleGrid::Make(surface, FindUnfoldedPoints(surface, fans));
   Ids crossing = candidates ? FindCrossingTriangles(surface, fans, *candidates)
-                 : grid     ? FindCrossingTriangles(*grid, fans, progress, 0.5)
+                 : grid     ? FindCrossingTriangles(*grid, progress, 0.5)
                         : FindCrossingTriangles(TriangleTree(surface), fans, TriangleContact::Crossing, &progress, 0.5);
   if (crossing.empty())
   {
@@ -328,7 +329,7 @@ UntangleTriangleSurface(TriangleSurface & surface,
   result.crossingBefore = crossing.size();
   if (!grid)
   {
-    grid = TriangleGrid::Make(surface);
+    grid = TriangleGrid::Make(surface, std::vector<std::uint8_t>(surface.GetNumberOfPoints()));
   }
   Places original;
   SearchedTriangles searched(surface, grid, FindTriangles(fans, FindPoints(surface, fans, crossing, true)));

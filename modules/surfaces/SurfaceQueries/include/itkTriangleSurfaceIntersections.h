@@ -59,12 +59,14 @@ FindCrossingTriangles(const TriangleTree & tree,
                       rhombic::StagedProgress * progress = nullptr,
                       double stageEnd = 1.0);
 
+/** For each point of a surface, 1 if it is certain that no two triangles at it meet elsewhere than at corners and sides
+ * they share, else 0. */
+std::vector<std::uint8_t>
+FindUnfoldedPoints(const TriangleSurface & surface, const TrianglesOfPoints & fans);
+
 /** The triangles of a grid that cross others or are duplicates, ascending: half the time of the same with a tree. */
 std::vector<std::uint32_t>
-FindCrossingTriangles(const TriangleGrid & grid,
-                      const TrianglesOfPoints & fans,
-                      rhombic::StagedProgress & progress,
-                      double stageEnd);
+FindCrossingTriangles(const TriangleGrid & grid, rhombic::StagedProgress & progress, double stageEnd);
 
 /** The triangles of \a candidates that cross any others, and these others. */
 std::vector<std::uint32_t>

@@ -40,14 +40,14 @@ struct BoxLengths
 } // namespace
 
 std::optional<TriangleGrid>
-TriangleGrid::Make(const TriangleSurface & surface)
+TriangleGrid::Make(const TriangleSurface & surface, const std::vector<std::uint8_t> & areUnfolded)
 {
   TriangleGrid grid(surface);
   if (surface.GetNumberOfTriangles() == 0 || !grid.FindSizes())
   {
     return std::nullopt;
   }
-  grid.Fill();
+  grid.Fill(areUnfolded);
   return grid;
 }
 
@@ -115,7 +115,7 @@ TriangleGrid::FindSizes()
 
 /** Sorts the triangles into the cells: counts, sums, and entries filled in from the end of each cell. */
 void
-TriangleGrid::Fill()
+TriangleGrid::Fill(const std::vector<std::uint8_t> & areUnfolded)
 {
   const std::size_t count = m_Surface->GetNumberOfTriangles();
   m_Begins = std::vector<std::atomic<std::uint32_t>>(m_Sizes[0] * m_Sizes[1] * m_Sizes[2] + 1);
@@ -129,10 +129,10 @@ TriangleGrid::Fill()
     sum += begin.load(std::memory_order_relaxed);
     begin.store(sum, std::memory_order_relaxed);
   }
-  rhombic::ForEachInBlocks(count, TrianglesOfGridBlock, [this](std::size_t n) {
+  rhombic::ForEachInBlocks(count, TrianglesOfGridBlock, [this, &areUnfolded](std::size_t n) {
     const auto triangle = static_cast<std::uint32_t>(n);
     const PointBox box = this->BoxOf(triangle);
-    Entry entry{ {}, triangle };
+    Entry entry{ {}, triangle, m_Surface->GetTriangles()[n] };
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
       const auto stepOf = [&](float coordinate) {
@@ -140,6 +140,10 @@ TriangleGrid::Fill()
       };
       entry.box[axis] = stepOf(box.lowest[axis]);
       entry.box[axis + 3] = stepOf(box.highest[axis]);
+    }
+    for (std::uint32_t & corner : entry.unfoldedCorners)
+    {
+      corner = areUnfolded[corner] != 0 ? corner : std::numeric_limits<std::uint32_t>::max();
     }
     m_Entries[m_Begins[this->CellOf(box)].fetch_sub(1, std::memory_order_relaxed) - 1] = entry;
   });
@@ -215,7 +219,8 @@ TriangleGridRegion::FindTriangles() const
       };
       for (const TriangleGrid::Entry * entry = first != last && isNear() ? first : last; entry != last; ++entry)
       {
-        if (!this->AllCells(m_Grid.BoxOf(entry->triangle), [this](std::size_t met) { return m_IsIn[met] == 0; }))
+        if (m_IsIn[cell] != 0 ||
+            !this->AllCells(m_Grid.BoxOf(entry->triangle), [this](std::size_t met) { return m_IsIn[met] == 0; }))
         {
           found.push_back(entry->triangle);
         }

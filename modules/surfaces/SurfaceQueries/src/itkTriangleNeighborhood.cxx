@@ -78,7 +78,7 @@ namespace itk
 HWY_EXPORT(FindOthersIn);
 
 void
-TriangleNeighborhood::Add(std::uint32_t triangle, const StepBox & box, const std::vector<std::uint8_t> & areUnfolded)
+TriangleNeighborhood::Add(std::uint32_t triangle, const StepBox & box, const TriangleType & unfolded)
 {
   constexpr std::size_t mostLanes = 64; // read behind the last triangle
   if (m_Size + mostLanes > m_Ids.size())
@@ -94,16 +94,14 @@ TriangleNeighborhood::Add(std::uint32_t triangle, const StepBox & box, const std
       row.resize(room);
     }
   }
-  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   m_Ids[m_Size] = triangle;
   for (std::size_t side = 0; side < box.size(); ++side)
   {
     m_Sides[side][m_Size] = box[side];
   }
-  for (std::size_t n = 0; n < 3; ++n)
+  for (std::size_t n = 0; n < unfolded.size(); ++n)
   {
-    const std::uint32_t corner = m_Triangles[triangle][n];
-    m_Corners[n][m_Size] = areUnfolded[corner] != 0 ? corner : none;
+    m_Corners[n][m_Size] = unfolded[n];
   }
   ++m_Size;
 }

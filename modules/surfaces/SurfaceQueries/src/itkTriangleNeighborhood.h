@@ -33,9 +33,9 @@ public:
     return m_Size;
   }
 
-  /** \param areUnfolded for each point of the surface, whether pairs of triangles at it are not looked for */
+  /** \param unfolded corners at which no pairs are looked for; the largest number in place of others */
   void
-  Add(std::uint32_t triangle, const StepBox & box, const std::vector<std::uint8_t> & areUnfolded);
+  Add(std::uint32_t triangle, const StepBox & box, const TriangleType & unfolded);
 
   /** Calls \a visit(a, b) for pairs of different triangles whose boxes overlap, which have no unfolded corner in
    * common, and whose first is among the first \a count that were added. */
@@ -66,7 +66,7 @@ private:
   std::size_t m_Size = 0;
   std::vector<std::uint32_t> m_Ids;
   std::array<std::vector<std::int16_t>, 6> m_Sides;    ///< of the boxes
-  std::array<std::vector<std::uint32_t>, 3> m_Corners; ///< those that are unfolded; None for others
+  std::array<std::vector<std::uint32_t>, 3> m_Corners; ///< see Add()
   std::vector<std::uint32_t> m_Others;
 };
 

@@ -4,6 +4,7 @@
 #include "detail/itkTriangleGrid.h"
 #include "detail/itkTrianglesOfPoints.h"
 #include "itkTriangleNeighborhood.h"
+#include "itkUnfoldedPoints.h"
 #include "rhombicForEachBlock.h"
 
 #include <algorithm>
@@ -23,100 +24,6 @@ constexpr std::size_t TrianglesOfPart = 64;
 constexpr std::size_t TrianglesOfSample = 32; // parts where not all are tested
 constexpr std::size_t PartsOfBlock = 16;
 constexpr std::size_t BlockOfPoints = 16384;
-constexpr std::size_t MostInFan = 24; // points with more triangles count as folded
-
-/** The triangles at a point in their order around it. */
-class Fan
-{
-public:
-  Fan(const TriangleSurface & surface, const TrianglesOfPoints & triangles, std::uint32_t point)
-  {
-    if (triangles.GetNumberOfTriangles(point) > MostInFan)
-    {
-      return;
-    }
-    std::array<std::array<std::uint32_t, 2>, MostInFan> sides; // of each triangle: its other corners
-    std::size_t count = 0;
-    triangles.VisitNeighbours(point, [&](std::uint32_t next, std::uint32_t last) { sides[count++] = { next, last }; });
-    const PositionType centre = ToPosition(surface.GetPoints()[point]);
-    for (std::size_t n = 0, current = 0; n < count; ++n)
-    {
-      m_Spokes[n] = Subtract(ToPosition(surface.GetPoints()[sides[current][0]]), centre);
-      const auto following = std::find_if(
-        sides.begin(), sides.begin() + count, [&](const auto & side) { return side[0] == sides[current][1]; });
-      current = static_cast<std::size_t>(following - sides.begin());
-      const bool isLast = n + 1 == count;
-      if (current == count || (current == 0) != isLast)
-      {
-        return; // open, or several fans
-      }
-    }
-    m_Size = count;
-  }
-
-  bool
-  IsUnfolded() const
-  {
-    PositionType normal{};
-    for (std::size_t n = 0; n < m_Size; ++n)
-    {
-      normal = itk::Add(normal, Cross(m_Spokes[n], m_Spokes[this->Next(n)]));
-    }
-    std::size_t axis = 0;
-    for (std::size_t other = 1; other < 3; ++other)
-    {
-      axis = std::abs(normal[other]) > std::abs(normal[axis]) ? other : axis;
-    }
-    // Moved along the normal into the plane across the axis, a spoke keeps its length within a factor of 2.
-    const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-    const double perU = normal[u] / normal[axis], perV = normal[v] / normal[axis];
-    std::array<double, MostInFan> us, vs, lengths;
-    for (std::size_t n = 0; n < m_Size; ++n)
-    {
-      const PositionType & spoke = m_Spokes[n];
-      us[n] = spoke[u] - perU * spoke[axis];
-      vs[n] = spoke[v] - perV * spoke[axis];
-      lengths[n] = std::abs(spoke[0]) + std::abs(spoke[1]) + std::abs(spoke[2]);
-    }
-    constexpr double rounding = 1e-14; // of a product of two coordinates, over that of the spokes' lengths; generous
-    const double sense = normal[axis] > 0.0 ? 1.0 : -1.0;
-    int turns = 0;
-    bool areSameSide = m_Size > 2;
-    for (std::size_t n = 0; n < m_Size; ++n)
-    {
-      const std::size_t next = this->Next(n);
-      areSameSide &= sense * (us[n] * vs[next] - vs[n] * us[next]) > rounding * lengths[n] * lengths[next];
-      turns += vs[n] < 0.0 && vs[next] >= 0.0 ? 1 : 0;
-    }
-    return areSameSide && turns == 1;
-  }
-
-private:
-  std::size_t
-  Next(std::size_t n) const
-  {
-    return n + 1 < m_Size ? n + 1 : 0;
-  }
-
-  std::array<PositionType, MostInFan> m_Spokes; ///< from the point to those around it
-  std::size_t m_Size = 0;                       ///< 0 if the triangles do not form one closed fan
-};
-
-/** For each point, 1 if it is certain that no two triangles at it meet elsewhere than at corners and sides they share,
- * else 0.
- *
- * It is certain if the triangles at the point form one closed fan, and there is a direction from which all of them are
- * seen from the same side, and go round the point once: then each is seen in a sector of its own. The direction is that
- * of the triangles' mean normal; a bound on rounding errors makes it a proof. */
-std::vector<std::uint8_t>
-FindUnfoldedPoints(const TriangleSurface & surface, const TrianglesOfPoints & triangles)
-{
-  std::vector<std::uint8_t> areUnfolded(surface.GetNumberOfPoints());
-  rhombic::ForEachInBlocks(areUnfolded.size(), BlockOfPoints, [&](std::size_t point) {
-    areUnfolded[point] = Fan(surface, triangles, static_cast<std::uint32_t>(point)).IsUnfolded();
-  });
-  return areUnfolded;
-}
 
 bool
 AreDuplicates(TriangleType a, TriangleType b)
@@ -261,7 +168,12 @@ private:
       const Box box = m_Tree.GetTriangleBox(triangle);
       if (box.Overlaps(around.box))
       {
-        near.Add(triangle, around.Of(box), m_AreUnfolded);
+        TriangleType corners = m_Tree.GetSurface().GetTriangles()[triangle];
+        for (std::uint32_t & corner : corners)
+        {
+          corner = m_AreUnfolded[corner] ? corner : TriangleTree::None;
+        }
+        near.Add(triangle, around.Of(box), corners);
       }
     }
   }
@@ -299,61 +211,6 @@ FindAllCrossing(const TriangleTree & tree,
       });
     }
     progress.Completed(end - begin);
-  });
-}
-
-/** The same for the triangles of a grid. */
-std::vector<std::uint32_t>
-FindAllCrossing(const TriangleGrid & grid,
-                const std::vector<std::uint8_t> & areUnfolded,
-                rhombic::StagedProgress & progress,
-                double stageEnd)
-{
-  constexpr std::size_t rowsOfBlock = 16;
-  const TriangleSurface & surface = grid.GetSurface();
-  progress.Begin(stageEnd, grid.GetNumberOfRows());
-  return CollectIds(grid.GetNumberOfRows(), rowsOfBlock, [&](std::size_t firstRow, std::size_t lastRow, auto & found) {
-    TriangleNeighborhood near(surface);
-    TriangleNeighborhood::StepBox around; // the cell's triangles
-    std::size_t ofCell = 0;
-    const auto begin = [&](const TriangleGrid::Entry * first, const TriangleGrid::Entry * last) {
-      near.Clear();
-      around = first->box;
-      for (const TriangleGrid::Entry * entry = first; entry != last; ++entry)
-      {
-        near.Add(entry->triangle, entry->box, areUnfolded);
-        for (unsigned int axis = 0; axis < 3; ++axis)
-        {
-          around[axis] = std::min(around[axis], entry->box[axis]);
-          around[axis + 3] = std::max(around[axis + 3], entry->box[axis + 3]);
-        }
-      }
-      ofCell = near.GetSize();
-    };
-    const auto add = [&](const TriangleGrid::Entry * first, const TriangleGrid::Entry * last) {
-      for (const TriangleGrid::Entry * entry = first; entry != last; ++entry)
-      {
-        const auto & box = entry->box;
-        if ((box[0] <= around[3]) & (box[1] <= around[4]) & (box[2] <= around[5]) & (around[0] <= box[3]) &
-            (around[1] <= box[4]) & (around[2] <= box[5]))
-        {
-          near.Add(entry->triangle, box, areUnfolded);
-        }
-      }
-    };
-    const auto test = [&] {
-      near.VisitPairs(ofCell, [&](std::uint32_t a, std::uint32_t b) {
-        if (FindContact(surface.GetPoints(), surface.GetTriangles()[a], surface.GetTriangles()[b]) == Contact::Crossing)
-        {
-          found.insert(found.end(), { a, b });
-        }
-      });
-    };
-    for (std::size_t row = firstRow; row < lastRow; ++row)
-    {
-      grid.VisitCells(row, begin, add, test);
-    }
-    progress.Completed(lastRow - firstRow);
   });
 }
 
@@ -403,6 +260,16 @@ FindCrossingAtEdges(const TriangleSurface & surface,
 }
 
 } // namespace
+
+std::vector<std::uint8_t>
+FindUnfoldedPoints(const TriangleSurface & surface, const TrianglesOfPoints & fans)
+{
+  std::vector<std::uint8_t> areUnfolded(surface.GetNumberOfPoints());
+  rhombic::ForEachInBlocks(areUnfolded.size(), BlockOfPoints, [&](std::size_t point) {
+    areUnfolded[point] = IsUnfoldedPoint(surface, fans, static_cast<std::uint32_t>(point));
+  });
+  return areUnfolded;
+}
 
 TriangleSurfaceIntersections
 FindTriangleSurfaceSelfIntersections(const TriangleTree & tree, SizeValueType maximumTestedTriangles)
@@ -466,7 +333,7 @@ FindCrossingTriangles(const TriangleTree & tree,
   SortUnique(corners);
   std::vector<std::uint8_t> areUnfolded(surface.GetNumberOfPoints()); // none but corners of candidates
   rhombic::ForEachInBlocks(corners.size(), BlockOfPoints, [&](std::size_t n) {
-    areUnfolded[corners[n]] = Fan(surface, fans, corners[n]).IsUnfolded();
+    areUnfolded[corners[n]] = IsUnfoldedPoint(surface, fans, corners[n]);
   });
   const TriangleTree ofCandidates(surface, candidates);
   const ContactSearch search(ofCandidates, std::move(areUnfolded), TrianglesOfSample);
@@ -485,12 +352,54 @@ FindCrossingTriangles(const TriangleTree & tree,
 }
 
 std::vector<std::uint32_t>
-FindCrossingTriangles(const TriangleGrid & grid,
-                      const TrianglesOfPoints & fans,
-                      rhombic::StagedProgress & progress,
-                      double stageEnd)
+FindCrossingTriangles(const TriangleGrid & grid, rhombic::StagedProgress & progress, double stageEnd)
 {
-  return FindAllCrossing(grid, FindUnfoldedPoints(grid.GetSurface(), fans), progress, stageEnd);
+  constexpr std::size_t rowsOfBlock = 16;
+  const TriangleSurface & surface = grid.GetSurface();
+  progress.Begin(stageEnd, grid.GetNumberOfRows());
+  return CollectIds(grid.GetNumberOfRows(), rowsOfBlock, [&](std::size_t firstRow, std::size_t lastRow, auto & found) {
+    TriangleNeighborhood near(surface);
+    TriangleNeighborhood::StepBox around; // the cell's triangles
+    std::size_t ofCell = 0;
+    const auto begin = [&](const TriangleGrid::Entry * first, const TriangleGrid::Entry * last) {
+      near.Clear();
+      around = first->box;
+      for (const TriangleGrid::Entry * entry = first; entry != last; ++entry)
+      {
+        near.Add(entry->triangle, entry->box, entry->unfoldedCorners);
+        for (unsigned int axis = 0; axis < 3; ++axis)
+        {
+          around[axis] = std::min(around[axis], entry->box[axis]);
+          around[axis + 3] = std::max(around[axis + 3], entry->box[axis + 3]);
+        }
+      }
+      ofCell = near.GetSize();
+    };
+    const auto add = [&](const TriangleGrid::Entry * first, const TriangleGrid::Entry * last) {
+      for (const TriangleGrid::Entry * entry = first; entry != last; ++entry)
+      {
+        const auto & box = entry->box;
+        if ((box[0] <= around[3]) & (box[1] <= around[4]) & (box[2] <= around[5]) & (around[0] <= box[3]) &
+            (around[1] <= box[4]) & (around[2] <= box[5]))
+        {
+          near.Add(entry->triangle, box, entry->unfoldedCorners);
+        }
+      }
+    };
+    const auto test = [&] {
+      near.VisitPairs(ofCell, [&](std::uint32_t a, std::uint32_t b) {
+        if (FindContact(surface.GetPoints(), surface.GetTriangles()[a], surface.GetTriangles()[b]) == Contact::Crossing)
+        {
+          found.insert(found.end(), { a, b });
+        }
+      });
+    };
+    for (std::size_t row = firstRow; row < lastRow; ++row)
+    {
+      grid.VisitCells(row, begin, add, test);
+    }
+    progress.Completed(lastRow - firstRow);
+  });
 }
 
 double

@@ -16,7 +16,7 @@ namespace itk
  *
  * For surfaces whose triangles are of about the same size, as isosurfaces have them: a grid is made in a quarter of the
  * time of a TriangleTree. It keeps the surface alive; moving points invalidates it. Linear time, on several threads;
- * memory about 20 bytes per triangle. The order of a cell's triangles depends on the threads. */
+ * memory about 32 bytes per triangle. The order of a cell's triangles depends on the threads. */
 class TriangleGrid
 {
 public:
@@ -25,11 +25,13 @@ public:
   {
     std::array<std::int16_t, 6> box; ///< least x, y, z, greatest x, y, z
     std::uint32_t triangle;
+    TriangleSurface::TriangleType unfoldedCorners; ///< the largest number in place of folded ones
   };
 
-  /** Nothing if some triangles are far larger than others, or positions are not finite. */
+  /** Nothing if some triangles are far larger than others, or positions are not finite. \param areUnfolded see
+   * FindUnfoldedPoints() */
   static std::optional<TriangleGrid>
-  Make(const TriangleSurface & surface);
+  Make(const TriangleSurface & surface, const std::vector<std::uint8_t> & areUnfolded);
 
   const TriangleSurface &
   GetSurface() const
@@ -92,7 +94,7 @@ private:
   FindSizes();
 
   void
-  Fill();
+  Fill(const std::vector<std::uint8_t> & areUnfolded);
 
   PointBox
   BoxOf(std::uint32_t triangle) const
