@@ -3,6 +3,7 @@
 #include "detail/itkPositionArithmetic.h"
 #include "itkTriangleSurfaceIntersections.h"
 #include "itkTriangleTree.h"
+#include "detail/itkTriangleCells.h"
 #include "detail/itkTriangleGrid.h"
 #include "detail/itkTrianglesOfPoints.h"
 
@@ -160,23 +161,23 @@ enum class KeptRounds
 class SearchedTriangles
 {
 public:
-  /** \param grid nothing to search all triangles
+  /** \param cells nothing to search all triangles
    *  \param triangles about which will move */
-  SearchedTriangles(const TriangleSurface & surface, const std::optional<TriangleGrid> & grid, const Ids & triangles)
+  SearchedTriangles(const TriangleSurface & surface, const std::optional<TriangleCells> & cells, const Ids & triangles)
     : m_Surface(surface)
-    , m_Grid(grid)
+    , m_Cells(cells)
   {
-    if (!m_Grid)
+    if (!m_Cells)
     {
       m_Trees.emplace_back(surface);
       return;
     }
-    TriangleGridRegion & region = m_Regions.emplace_back(*m_Grid);
+    TriangleRegion & region = m_Regions.emplace_back(*m_Cells);
     for (const std::uint32_t triangle : triangles)
     {
       region.Add(TriangleTree::BoxOf(surface.GetPoints(), surface.GetTriangles()[triangle]));
     }
-    m_Trees.emplace_back(surface, region.FindTriangles());
+    m_Trees.emplace_back(surface, region.FindTriangles(surface));
   }
 
   /** The triangles of \a moved that cross others, and these others. */
@@ -197,15 +198,15 @@ public:
   void
   Follow(const Ids & moved, const std::vector<TriangleTree::Box> & before)
   {
-    std::optional<TriangleGridRegion> added;
+    std::optional<TriangleRegion> added;
     for (std::size_t n = 0; n < moved.size(); ++n)
     {
       const auto after = TriangleTree::BoxOf(m_Surface.GetPoints(), m_Surface.GetTriangles()[moved[n]]);
       for (const TriangleTree::Box & box : { before[n], after })
       {
-        if (m_Grid && !this->Hold(box))
+        if (m_Cells && !this->Hold(box))
         {
-          (added ? *added : added.emplace(*m_Grid)).Add(Enlarged(box));
+          (added ? *added : added.emplace(*m_Cells)).Add(Enlarged(box));
         }
       }
       for (TriangleTree & tree : m_Trees)
@@ -215,7 +216,7 @@ public:
     }
     if (added)
     {
-      m_Trees.emplace_back(m_Surface, added->FindTriangles());
+      m_Trees.emplace_back(m_Surface, added->FindTriangles(m_Surface));
       m_Regions.push_back(std::move(*added));
     }
   }
@@ -242,9 +243,9 @@ private:
   }
 
   const TriangleSurface & m_Surface;
-  const std::optional<TriangleGrid> & m_Grid;
-  std::vector<TriangleGridRegion> m_Regions; ///< each triangle that has moved is in one as it was and as it is
-  std::vector<TriangleTree> m_Trees;         ///< of the triangles that meet each region
+  const std::optional<TriangleCells> & m_Cells;
+  std::vector<TriangleRegion> m_Regions; ///< each triangle that has moved is in one as it was and as it is
+  std::vector<TriangleTree> m_Trees;     ///< of the triangles that meet each region
 };
 
 /** Moves points in rounds, notes where they were in \a original, and leaves the surface in the best state found.
@@ -327,12 +328,10 @@ UntangleTriangleSurface(TriangleSurface & surface,
   }
   TriangleSurfaceUntanglingReport result;
   result.crossingBefore = crossing.size();
-  if (!grid)
-  {
-    grid = TriangleGrid::Make(surface, std::vector<std::uint8_t>(surface.GetNumberOfPoints()));
-  }
+  constexpr double cellOverMean = 2.0;
+  const auto cells = TriangleCells::Make(surface, cellOverMean);
   Places original;
-  SearchedTriangles searched(surface, grid, FindTriangles(fans, FindPoints(surface, fans, crossing, true)));
+  SearchedTriangles searched(surface, cells, FindTriangles(fans, FindPoints(surface, fans, crossing, false)));
   for (const KeptRounds kept : { KeptRounds::All, KeptRounds::Better })
   {
     crossing = Untangle(surface, searched, fans, maximumMove, kept, std::move(crossing), original, progress);

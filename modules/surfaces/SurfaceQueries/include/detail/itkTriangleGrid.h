@@ -1,11 +1,9 @@
 #ifndef itkTriangleGrid_h
 #define itkTriangleGrid_h
 
-#include "itkPointBox.h"
-#include "itkTriangleSurface.h"
+#include "detail/itkTriangleCells.h"
 
 #include <atomic>
-#include <optional>
 
 namespace itk
 {
@@ -33,6 +31,12 @@ public:
   static std::optional<TriangleGrid>
   Make(const TriangleSurface & surface, const std::vector<std::uint8_t> & areUnfolded);
 
+  const TriangleCells &
+  GetCells() const
+  {
+    return m_Cells;
+  }
+
   const TriangleSurface &
   GetSurface() const
   {
@@ -43,7 +47,7 @@ public:
   std::size_t
   GetNumberOfRows() const
   {
-    return m_Sizes[1] * m_Sizes[2];
+    return m_Cells.GetSize(1) * m_Cells.GetSize(2);
   }
 
   /** Calls \a visit(first, last) for the cells of a row that hold triangles, and for each of them, with parts of
@@ -53,13 +57,13 @@ public:
   void
   VisitCells(std::size_t row, const TBegin & visit, const TNext & visitNext, const TEnd & end) const
   {
-    const std::size_t y = row % m_Sizes[1], z = row / m_Sizes[1];
-    if (y == 0 || y + 1 == m_Sizes[1] || z == 0 || z + 1 == m_Sizes[2])
+    const std::size_t y = row % m_Cells.GetSize(1), z = row / m_Cells.GetSize(1);
+    if (y == 0 || y + 1 == m_Cells.GetSize(1) || z == 0 || z + 1 == m_Cells.GetSize(2))
     {
       return; // the outermost cells are empty
     }
-    const std::size_t above = m_Sizes[0], behind = m_Sizes[0] * m_Sizes[1];
-    for (std::size_t cell = row * m_Sizes[0] + 1; cell + 1 < (row + 1) * m_Sizes[0]; ++cell)
+    const std::size_t above = m_Cells.GetSize(0), behind = m_Cells.GetSize(0) * m_Cells.GetSize(1);
+    for (std::size_t cell = row * m_Cells.GetSize(0) + 1; cell + 1 < (row + 1) * m_Cells.GetSize(0); ++cell)
     {
       if (m_Begins[cell] == m_Begins[cell + 1])
       {
@@ -76,25 +80,15 @@ public:
   }
 
 private:
-  friend class TriangleGridRegion;
-
-  using PointType = TriangleSurface::PointType;
-
-  explicit TriangleGrid(const TriangleSurface & surface)
-    : m_Surface(&surface)
-  {}
+  TriangleGrid(const TriangleSurface & surface,
+               const TriangleCells & cells,
+               const std::vector<std::uint8_t> & areUnfolded);
 
   const Entry *
   EntriesFrom(std::size_t cell) const
   {
     return m_Entries.data() + m_Begins[cell];
   }
-
-  bool
-  FindSizes();
-
-  void
-  Fill(const std::vector<std::uint8_t> & areUnfolded);
 
   PointBox
   BoxOf(std::uint32_t triangle) const
@@ -107,64 +101,10 @@ private:
     return box;
   }
 
-  std::size_t
-  CellOf(double coordinate, unsigned int axis) const
-  {
-    const double cell = 1.0 + (coordinate - m_Lowest[axis]) * m_CellsPerMillimetre[axis];
-    return static_cast<std::uint32_t>(
-      static_cast<int>(std::min(static_cast<double>(m_Sizes[axis] - 1), std::max(0.0, cell))));
-  }
-
-  std::size_t
-  CellOf(const PointBox & box) const
-  {
-    std::size_t cell = 0;
-    for (unsigned int axis = 3; axis-- > 0;)
-    {
-      cell = cell * m_Sizes[axis] + this->CellOf(0.5 * (double{ box.lowest[axis] } + box.highest[axis]), axis);
-    }
-    return cell;
-  }
-
   TriangleSurface::ConstPointer m_Surface;
-  PointType m_Lowest{};
-  std::array<double, 3> m_CellsPerMillimetre{};
-  PointType m_StepsPerMillimetre{};
-  std::array<std::size_t, 3> m_Sizes{};             ///< number of cells along each axis
+  TriangleCells m_Cells;
   std::vector<std::atomic<std::uint32_t>> m_Begins; ///< of each cell's entries, and the end of the last
   std::vector<Entry, BulkAllocator<Entry>> m_Entries;
-};
-
-/** \class TriangleGridRegion
- * \brief Some cells of a grid, and the triangles that may meet something in them. */
-class TriangleGridRegion
-{
-public:
-  explicit TriangleGridRegion(const TriangleGrid & grid)
-    : m_Grid(grid)
-    , m_IsIn(grid.m_Begins.size() - 1)
-  {}
-
-  /** Adds the cells that a box meets. */
-  void
-  Add(const PointBox & box);
-
-  /** Whether all cells that the box meets are in the region. */
-  bool
-  Holds(const PointBox & box) const;
-
-  /** The ids of the triangles whose boxes meet the region's cells, in any order. Triangles that are no longer where the
-   * grid has them are found if their boxes were in the region before and are now. */
-  std::vector<std::uint32_t>
-  FindTriangles() const;
-
-private:
-  template <typename TVisitor>
-  bool
-  AllCells(const PointBox & box, const TVisitor & visit) const;
-
-  const TriangleGrid & m_Grid;
-  std::vector<std::uint8_t> m_IsIn;
 };
 
 } // namespace itk

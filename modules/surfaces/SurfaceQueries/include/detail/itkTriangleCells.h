@@ -1,0 +1,156 @@
+#ifndef itkTriangleCells_h
+#define itkTriangleCells_h
+
+#include "itkPointBox.h"
+#include "itkTriangleSurface.h"
+
+#include <optional>
+
+namespace itk
+{
+
+/** \class TriangleCells
+ * \brief The cells of a grid around a surface whose triangles are of about the same size: none is longer than a cell
+ * along any axis. The outermost cells are empty. */
+class TriangleCells
+{
+public:
+  using PointType = TriangleSurface::PointType;
+
+  /** Nothing if there are no triangles, some are far larger than others, or positions are not finite.
+   * \param cellOverMean length of a cell, over that of the triangles' boxes; more if some are long */
+  static std::optional<TriangleCells>
+  Make(const TriangleSurface & surface, double cellOverMean);
+
+  /** The box around all points. */
+  const PointBox &
+  GetBox() const
+  {
+    return m_Box;
+  }
+
+  std::size_t
+  GetSize(unsigned int axis) const
+  {
+    return m_Sizes[axis];
+  }
+
+  /** The difference of the numbers of cells that follow each other along an axis. */
+  std::size_t
+  GetStride(unsigned int axis) const
+  {
+    return axis == 0 ? 1 : axis == 1 ? m_Sizes[0] : m_Sizes[0] * m_Sizes[1];
+  }
+
+  std::size_t
+  GetNumberOfCells() const
+  {
+    return m_Sizes[0] * m_Sizes[1] * m_Sizes[2];
+  }
+
+  /** The number of the cell along an axis; it does not fall where the coordinate grows. */
+  std::size_t
+  Find(double coordinate, unsigned int axis) const
+  {
+    const double cell = 1.0 + (coordinate - m_Box.lowest[axis]) * m_CellsPerMillimetre[axis];
+    return static_cast<std::uint32_t>(
+      static_cast<int>(std::min(static_cast<double>(m_Sizes[axis] - 1), std::max(0.0, cell))));
+  }
+
+  /** The cell of the box's centre. */
+  std::size_t
+  FindCentre(const PointBox & box) const
+  {
+    std::size_t cell = 0;
+    for (unsigned int axis = 3; axis-- > 0;)
+    {
+      cell = cell * m_Sizes[axis] + this->Find(0.5 * (double{ box.lowest[axis] } + box.highest[axis]), axis);
+    }
+    return cell;
+  }
+
+  /** The middle of a cell along an axis, about. */
+  float
+  GetMiddle(std::size_t cell, unsigned int axis) const
+  {
+    return static_cast<float>(m_Box.lowest[axis] +
+                              (static_cast<double>(cell) - 0.5) / std::max(m_CellsPerMillimetre[axis], 1e-30));
+  }
+
+  /** The cells that a box meets, from the first to the last along each axis. */
+  std::array<std::array<std::size_t, 3>, 2>
+  FindEnds(const PointBox & box) const
+  {
+    std::array<std::array<std::size_t, 3>, 2> ends;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      ends[0][axis] = this->Find(double{ box.lowest[axis] }, axis);
+      ends[1][axis] = this->Find(double{ box.highest[axis] }, axis);
+    }
+    return ends;
+  }
+
+  /** Whether \a visit(cell) is true for all cells that the box meets. */
+  template <typename TVisitor>
+  bool
+  AllOf(const PointBox & box, const TVisitor & visit) const
+  {
+    const auto [first, last] = this->FindEnds(box);
+    for (std::size_t z = first[2]; z <= last[2]; ++z)
+    {
+      for (std::size_t y = first[1]; y <= last[1]; ++y)
+      {
+        for (std::size_t x = first[0]; x <= last[0]; ++x)
+        {
+          if (!visit((z * m_Sizes[1] + y) * m_Sizes[0] + x))
+          {
+            return false;
+          }
+        }
+      }
+    }
+    return true;
+  }
+
+private:
+  bool
+  FindSizes(const TriangleSurface & surface, double cellOverMean);
+
+  PointBox m_Box{};
+  std::array<double, 3> m_CellsPerMillimetre{};
+  std::array<std::size_t, 3> m_Sizes{}; ///< number of cells along each axis
+};
+
+/** \class TriangleRegion
+ * \brief Some cells, and the triangles that meet them. */
+class TriangleRegion
+{
+public:
+  explicit TriangleRegion(const TriangleCells & cells)
+    : m_Cells(cells)
+    , m_IsIn(cells.GetNumberOfCells())
+  {}
+
+  /** Adds the cells that a box meets. */
+  void
+  Add(const PointBox & box);
+
+  /** Whether all cells that the box meets are in the region. */
+  bool
+  Holds(const PointBox & box) const
+  {
+    return m_Cells.AllOf(box, [this](std::size_t cell) { return m_IsIn[cell] != 0; });
+  }
+
+  /** The ids of the triangles whose boxes meet the region's cells, in any order. */
+  std::vector<std::uint32_t>
+  FindTriangles(const TriangleSurface & surface) const;
+
+private:
+  const TriangleCells & m_Cells;
+  std::vector<std::uint8_t> m_IsIn;
+};
+
+} // namespace itk
+
+#endif
