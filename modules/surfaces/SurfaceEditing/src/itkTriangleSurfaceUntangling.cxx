@@ -3,6 +3,7 @@
 #include "detail/itkPositionArithmetic.h"
 #include "itkTriangleSurfaceIntersections.h"
 #include "itkTriangleTree.h"
+#include "detail/itkSingleSheets.h"
 #include "detail/itkTriangleCells.h"
 #include "detail/itkTriangleGrid.h"
 #include "detail/itkTrianglesOfPoints.h"
@@ -303,6 +304,30 @@ Untangle(TriangleSurface & surface,
   return fewest;
 }
 
+/** The triangles that cross others. \a fans gets the triangles at all points if they are needed. */
+Ids
+FindCrossing(const TriangleSurface & surface,
+             const std::optional<CrossingCandidates> & candidates,
+             std::optional<TrianglesOfPoints> & fans,
+             rhombic::StagedProgress & progress)
+{
+  constexpr double stageEnd = 0.5;
+  if (candidates)
+  {
+    return FindCrossingTriangles(surface, fans.emplace(surface), *candidates);
+  }
+  if (const auto suspects = FindTrianglesOutsideSingleSheets(surface))
+  {
+    return FindCrossingTriangles(TriangleTree(surface, *suspects), progress, stageEnd);
+  }
+  fans.emplace(surface);
+  if (const auto grid = TriangleGrid::Make(surface, FindUnfoldedPoints(surface, *fans)))
+  {
+    return FindCrossingTriangles(*grid, progress, stageEnd);
+  }
+  return FindCrossingTriangles(TriangleTree(surface), *fans, TriangleContact::Crossing, &progress, stageEnd);
+}
+
 } // namespace
 
 TriangleSurfaceUntanglingReport
@@ -316,25 +341,25 @@ UntangleTriangleSurface(TriangleSurface & surface,
     itkGenericExceptionMacro("Untangling needs a distance above 0 mm that points may move, not " << maximumMove << ".");
   }
   rhombic::StagedProgress progress(report);
-  const TrianglesOfPoints fans(surface);
-  std::optional<TriangleGrid> grid =
-    candidates ? std::nullopt : TriangleGrid::Make(surface, FindUnfoldedPoints(surface, fans));
-  Ids crossing = candidates ? FindCrossingTriangles(surface, fans, *candidates)
-                 : grid     ? FindCrossingTriangles(*grid, progress, 0.5)
-                        : FindCrossingTriangles(TriangleTree(surface), fans, TriangleContact::Crossing, &progress, 0.5);
+  std::optional<TrianglesOfPoints> fans;
+  Ids crossing = FindCrossing(surface, candidates, fans, progress);
   if (crossing.empty())
   {
     return {};
+  }
+  if (!fans)
+  {
+    fans.emplace(surface);
   }
   TriangleSurfaceUntanglingReport result;
   result.crossingBefore = crossing.size();
   constexpr double cellOverMean = 2.0;
   const auto cells = TriangleCells::Make(surface, cellOverMean);
   Places original;
-  SearchedTriangles searched(surface, cells, FindTriangles(fans, FindPoints(surface, fans, crossing, false)));
+  SearchedTriangles searched(surface, cells, FindTriangles(*fans, FindPoints(surface, *fans, crossing, false)));
   for (const KeptRounds kept : { KeptRounds::All, KeptRounds::Better })
   {
-    crossing = Untangle(surface, searched, fans, maximumMove, kept, std::move(crossing), original, progress);
+    crossing = Untangle(surface, searched, *fans, maximumMove, kept, std::move(crossing), original, progress);
   }
   result.crossingAfter = crossing.size();
   for (const auto & [point, place] : original)

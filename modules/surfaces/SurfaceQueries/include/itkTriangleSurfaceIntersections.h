@@ -59,6 +59,10 @@ FindCrossingTriangles(const TriangleTree & tree,
                       rhombic::StagedProgress * progress = nullptr,
                       double stageEnd = 1.0);
 
+/** The same for a tree of some of a surface's triangles. */
+std::vector<std::uint32_t>
+FindCrossingTriangles(const TriangleTree & tree, rhombic::StagedProgress & progress, double stageEnd);
+
 /** For each point of a surface, 1 if it is certain that no two triangles at it meet elsewhere than at corners and sides
  * they share, else 0. */
 std::vector<std::uint8_t>

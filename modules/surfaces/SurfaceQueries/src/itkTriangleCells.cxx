@@ -16,17 +16,6 @@ constexpr std::size_t TrianglesOfCellBlock = 16384;
 constexpr double CellOverLongest = 1.01; // length of a cell, at least, over that of the longest box of a triangle
 constexpr double LongestOverMean = 8.0;  // at most, of triangles' boxes
 
-PointBox
-BoxOf(const TriangleSurface & surface, std::size_t triangle)
-{
-  const auto & [a, b, c] = surface.GetTriangles()[triangle];
-  const auto & points = surface.GetPoints();
-  PointBox box{ points[a], points[a] };
-  box.Add(points[b]);
-  box.Add(points[c]);
-  return box;
-}
-
 /** The lengths of triangles' boxes along each axis. */
 struct BoxLengths
 {
@@ -135,7 +124,7 @@ TriangleRegion::FindTriangles(const TriangleSurface & surface) const
     std::vector<std::uint32_t> found;
     for (std::size_t n = begin; n < end; ++n)
     {
-      if (!m_Cells.AllOf(BoxOf(surface, n), [this](std::size_t cell) { return m_IsIn[cell] == 0; }))
+      if (!m_Cells.AllOf(TriangleCells::BoxOf(surface, n), [this](std::size_t cell) { return m_IsIn[cell] == 0; }))
       {
         found.push_back(static_cast<std::uint32_t>(n));
       }

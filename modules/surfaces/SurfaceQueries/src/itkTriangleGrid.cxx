@@ -40,8 +40,8 @@ TriangleGrid::TriangleGrid(const TriangleSurface & surface,
     const float extent = cells.GetBox().highest[axis] - cells.GetBox().lowest[axis];
     stepsPerMillimetre[axis] = extent > 1e-30f ? StepsOfSurface / extent : 0.0f;
   }
-  rhombic::ForEachInBlocks(count, TrianglesOfGridBlock, [this](std::size_t n) {
-    m_Begins[m_Cells.FindCentre(this->BoxOf(static_cast<std::uint32_t>(n)))].fetch_add(1, std::memory_order_relaxed);
+  rhombic::ForEachInBlocks(count, TrianglesOfGridBlock, [&](std::size_t n) {
+    m_Begins[m_Cells.FindCentre(TriangleCells::BoxOf(surface, n))].fetch_add(1, std::memory_order_relaxed);
   });
   std::uint32_t sum = 0;
   for (auto & begin : m_Begins)
@@ -51,7 +51,7 @@ TriangleGrid::TriangleGrid(const TriangleSurface & surface,
   }
   rhombic::ForEachInBlocks(count, TrianglesOfGridBlock, [&](std::size_t n) {
     const auto triangle = static_cast<std::uint32_t>(n);
-    const PointBox box = this->BoxOf(triangle);
+    const PointBox box = TriangleCells::BoxOf(surface, n);
     Entry entry{ {}, triangle, surface.GetTriangles()[n] };
     for (unsigned int axis = 0; axis < 3; ++axis)
     {

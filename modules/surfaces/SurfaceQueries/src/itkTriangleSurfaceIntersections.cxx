@@ -352,6 +352,13 @@ FindCrossingTriangles(const TriangleTree & tree,
 }
 
 std::vector<std::uint32_t>
+FindCrossingTriangles(const TriangleTree & tree, rhombic::StagedProgress & progress, double stageEnd)
+{
+  std::vector<std::uint8_t> areUnfolded(tree.GetSurface().GetNumberOfPoints()); // pairs at points are tested, too
+  return FindAllCrossing(tree, std::move(areUnfolded), Contact::Crossing, progress, stageEnd);
+}
+
+std::vector<std::uint32_t>
 FindCrossingTriangles(const TriangleGrid & grid, rhombic::StagedProgress & progress, double stageEnd)
 {
   constexpr std::size_t rowsOfBlock = 16;

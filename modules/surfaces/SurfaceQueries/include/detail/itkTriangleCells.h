@@ -22,6 +22,18 @@ public:
   static std::optional<TriangleCells>
   Make(const TriangleSurface & surface, double cellOverMean);
 
+  /** The box around a triangle. */
+  static PointBox
+  BoxOf(const TriangleSurface & surface, std::size_t triangle)
+  {
+    const auto & [a, b, c] = surface.GetTriangles()[triangle];
+    const auto & points = surface.GetPoints();
+    PointBox box{ points[a], points[a] };
+    box.Add(points[b]);
+    box.Add(points[c]);
+    return box;
+  }
+
   /** The box around all points. */
   const PointBox &
   GetBox() const

@@ -90,17 +90,6 @@ private:
     return m_Entries.data() + m_Begins[cell];
   }
 
-  PointBox
-  BoxOf(std::uint32_t triangle) const
-  {
-    const auto & [a, b, c] = m_Surface->GetTriangles()[triangle];
-    const auto & points = m_Surface->GetPoints();
-    PointBox box{ points[a], points[a] };
-    box.Add(points[b]);
-    box.Add(points[c]);
-    return box;
-  }
-
   TriangleSurface::ConstPointer m_Surface;
   TriangleCells m_Cells;
   std::vector<std::atomic<std::uint32_t>> m_Begins; ///< of each cell's entries, and the end of the last
