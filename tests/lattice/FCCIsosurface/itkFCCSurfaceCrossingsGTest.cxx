@@ -148,10 +148,11 @@ TEST(FCCSurfaceCrossingsInAGrid, AreThoseOfATree)
     const Mode mode = seed % 3 == 0 ? Mode::Lean : seed % 3 == 1 ? Mode::Octahedra : Mode::Parallelepipeds;
     const auto surface = Extract(MakeUnevenNoise(seed, seed % 4 == 0 ? 1000.0 : 0.0, { { 9, 14, 14 } }), mode);
     const itk::TrianglesOfPoints fans(*surface);
-    const auto grid = itk::TriangleGrid::Make(*surface, FindUnfoldedPoints(*surface, fans));
-    ASSERT_TRUE(grid) << seed;
+    const auto sizes = itk::TriangleSizes::Find(*surface);
+    ASSERT_TRUE(sizes) << seed;
+    const itk::TriangleGrid grid(*surface, *sizes, FindUnfoldedPoints(*surface, fans));
     rhombic::StagedProgress silent({});
-    const auto found = FindCrossingTriangles(*grid, silent, 1.0);
+    const auto found = FindCrossingTriangles(grid, silent, 1.0);
     EXPECT_EQ(found, FindCrossingTriangles(itk::TriangleTree(*surface), fans)) << seed;
     crossing += found.empty() ? 0 : 1;
   }

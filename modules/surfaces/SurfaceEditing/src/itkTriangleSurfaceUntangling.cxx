@@ -304,28 +304,25 @@ Untangle(TriangleSurface & surface,
   return fewest;
 }
 
-/** The triangles that cross others. \a fans gets the triangles at all points if they are needed. */
+/** The triangles that cross others. */
 Ids
 FindCrossing(const TriangleSurface & surface,
-             const std::optional<CrossingCandidates> & candidates,
-             std::optional<TrianglesOfPoints> & fans,
+             const TrianglesOfPoints & fans,
+             const std::optional<TriangleSizes> & sizes,
              rhombic::StagedProgress & progress)
 {
   constexpr double stageEnd = 0.5;
-  if (candidates)
+  if (const auto suspects = sizes ? FindTrianglesOutsideSingleSheets(surface, *sizes) : std::nullopt)
   {
-    return FindCrossingTriangles(surface, fans.emplace(surface), *candidates);
+    return FindCrossingTriangles(
+      TriangleTree(surface, *suspects), fans, TriangleContact::Crossing, &progress, stageEnd);
   }
-  if (const auto suspects = FindTrianglesOutsideSingleSheets(surface))
+  if (sizes)
   {
-    return FindCrossingTriangles(TriangleTree(surface, *suspects), progress, stageEnd);
+    const TriangleGrid grid(surface, *sizes, FindUnfoldedPoints(surface, fans));
+    return FindCrossingTriangles(grid, progress, stageEnd);
   }
-  fans.emplace(surface);
-  if (const auto grid = TriangleGrid::Make(surface, FindUnfoldedPoints(surface, *fans)))
-  {
-    return FindCrossingTriangles(*grid, progress, stageEnd);
-  }
-  return FindCrossingTriangles(TriangleTree(surface), *fans, TriangleContact::Crossing, &progress, stageEnd);
+  return FindCrossingTriangles(TriangleTree(surface), fans, TriangleContact::Crossing, &progress, stageEnd);
 }
 
 } // namespace
@@ -341,25 +338,24 @@ UntangleTriangleSurface(TriangleSurface & surface,
     itkGenericExceptionMacro("Untangling needs a distance above 0 mm that points may move, not " << maximumMove << ".");
   }
   rhombic::StagedProgress progress(report);
-  std::optional<TrianglesOfPoints> fans;
-  Ids crossing = FindCrossing(surface, candidates, fans, progress);
+  const TrianglesOfPoints fans(surface);
+  std::optional<TriangleSizes> sizes = candidates ? std::nullopt : TriangleSizes::Find(surface);
+  Ids crossing =
+    candidates ? FindCrossingTriangles(surface, fans, *candidates) : FindCrossing(surface, fans, sizes, progress);
   if (crossing.empty())
   {
     return {};
   }
-  if (!fans)
-  {
-    fans.emplace(surface);
-  }
   TriangleSurfaceUntanglingReport result;
   result.crossingBefore = crossing.size();
-  constexpr double cellOverMean = 2.0;
-  const auto cells = TriangleCells::Make(surface, cellOverMean);
+  sizes = sizes ? sizes : TriangleSizes::Find(surface);
+  constexpr double cellOverMean = 2.5;
+  const auto cells = sizes ? std::make_optional<TriangleCells>(*sizes, cellOverMean) : std::nullopt;
   Places original;
-  SearchedTriangles searched(surface, cells, FindTriangles(*fans, FindPoints(surface, *fans, crossing, false)));
+  SearchedTriangles searched(surface, cells, FindTriangles(fans, FindPoints(surface, fans, crossing, false)));
   for (const KeptRounds kept : { KeptRounds::All, KeptRounds::Better })
   {
-    crossing = Untangle(surface, searched, *fans, maximumMove, kept, std::move(crossing), original, progress);
+    crossing = Untangle(surface, searched, fans, maximumMove, kept, std::move(crossing), original, progress);
   }
   result.crossingAfter = crossing.size();
   for (const auto & [point, place] : original)

@@ -47,7 +47,7 @@ TriangleSurfaceIntersections
 FindTriangleSurfaceSelfIntersections(const TriangleTree & tree,
                                      SizeValueType maximumTestedTriangles = std::numeric_limits<SizeValueType>::max());
 
-/** The ids of the triangles that cross others or are duplicates, ascending. Tests all triangles.
+/** The ids of the triangles that cross others or are duplicates, ascending. Tests all triangles of the tree.
  * \param fans the triangles at the points of the tree's surface
  * \param least Touching to find triangles that only touch others, too
  * \param progress if not null, its next stage is the search
@@ -58,10 +58,6 @@ FindCrossingTriangles(const TriangleTree & tree,
                       TriangleContact least = TriangleContact::Crossing,
                       rhombic::StagedProgress * progress = nullptr,
                       double stageEnd = 1.0);
-
-/** The same for a tree of some of a surface's triangles. */
-std::vector<std::uint32_t>
-FindCrossingTriangles(const TriangleTree & tree, rhombic::StagedProgress & progress, double stageEnd);
 
 /** For each point of a surface, 1 if it is certain that no two triangles at it meet elsewhere than at corners and sides
  * they share, else 0. */

@@ -177,7 +177,7 @@ public:
   {
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      const unsigned int u = (axis + 1) % 3, v = (axis + 2) % 3;
+      const unsigned int u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2; // columns that follow each other are neighbours
       rhombic::ForEachInBlocks(m_Cells.GetSize(u) * m_Cells.GetSize(v), 256, [&](std::size_t column) {
         const std::size_t first =
           column % m_Cells.GetSize(u) * m_Cells.GetStride(u) + column / m_Cells.GetSize(u) * m_Cells.GetStride(v);
@@ -216,16 +216,6 @@ public:
     return others;
   }
 
-  void
-  Clear()
-  {
-    for (auto & marks : m_Marks)
-    {
-      marks.store(0, std::memory_order_relaxed);
-    }
-    std::fill(m_AreSingle.begin(), m_AreSingle.end(), std::uint8_t{ 0 });
-  }
-
 private:
   /** Returns the cell's marks before. */
   std::uint16_t
@@ -256,9 +246,15 @@ private:
         }
       }
     }
+    auto middles = std::array<std::array<std::size_t, 3>, 2>{ first, last }; // those within the box
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      this->MarkLines(corners, box, axis, first, last);
+      middles[0][axis] += m_Middles[axis][first[axis]] < box.lowest[axis] ? 1 : 0;
+      middles[1][axis] += m_Middles[axis][last[axis]] > box.highest[axis] ? 0 : 1;
+    }
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      this->MarkLines(corners, middles, axis, first[axis]);
     }
   }
 
@@ -266,27 +262,20 @@ private:
    */
   void
   MarkLines(const Corners & corners,
-            const PointBox & box,
+            const std::array<std::array<std::size_t, 3>, 2> & middles,
             unsigned int axis,
-            const std::array<std::size_t, 3> & first,
-            const std::array<std::size_t, 3> & last)
+            std::size_t first)
   {
     const unsigned int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    for (std::size_t atV = first[v]; atV <= last[v]; ++atV)
+    for (std::size_t atV = middles[0][v]; atV < middles[1][v]; ++atV)
     {
-      const float middleV = m_Middles[v][atV];
-      for (std::size_t atU = first[u]; atU <= last[u] && middleV >= box.lowest[v] && middleV <= box.highest[v]; ++atU)
+      for (std::size_t atU = middles[0][u]; atU < middles[1][u]; ++atU)
       {
-        const float middleU = m_Middles[u][atU];
-        if (middleU < box.lowest[u] || middleU > box.highest[u])
-        {
-          continue;
-        }
-        const Meeting meeting = MeetsLine(corners, u, v, { middleU, middleV });
+        const Meeting meeting = MeetsLine(corners, u, v, { m_Middles[u][atU], m_Middles[v][atV] });
         if (meeting != Meeting::No)
         {
           const std::size_t cell =
-            atU * m_Cells.GetStride(u) + atV * m_Cells.GetStride(v) + first[axis] * m_Cells.GetStride(axis);
+            atU * m_Cells.GetStride(u) + atV * m_Cells.GetStride(v) + first * m_Cells.GetStride(axis);
           const bool isFirst =
             meeting == Meeting::Yes &&
             (m_Marks[cell].fetch_or(Mark::Once(axis), std::memory_order_relaxed) & Mark::Once(axis)) == 0;
@@ -330,31 +319,37 @@ private:
   bool m_AreMiddlesInCells = true;
 };
 
+/** Whether most cells that some of the surface's triangles meet are single sheets, as far as these triangles show. */
+bool
+IsSmooth(const TriangleSurface & surface)
+{
+  const std::size_t middle = surface.GetNumberOfTriangles() / 2, few = surface.GetNumberOfTriangles() / 64;
+  const auto sizes = TriangleSizes::Find(surface, middle - few, middle + few);
+  if (!sizes)
+  {
+    return false;
+  }
+  const TriangleCells cells(*sizes, SheetCellOverMean);
+  SheetCells sheets(surface, cells);
+  sheets.MarkTriangles(middle - few, middle + few);
+  return sheets.FindSingle() >= LeastShare;
+}
+
 } // namespace
 
 std::optional<std::vector<std::uint32_t>>
-FindTrianglesOutsideSingleSheets(const TriangleSurface & surface)
+FindTrianglesOutsideSingleSheets(const TriangleSurface & surface, const TriangleSizes & sizes)
 {
-  const std::size_t count = surface.GetNumberOfTriangles();
-  const auto cells = count >= LeastForSheets ? TriangleCells::Make(surface, SheetCellOverMean) : std::nullopt;
-  if (!cells)
+  if (sizes.count < LeastForSheets || !IsSmooth(surface))
   {
     return std::nullopt;
   }
-  SheetCells sheets(surface, *cells);
-  const std::size_t middle = count / 2, few = count / 32;
-  sheets.MarkTriangles(middle - few, middle + few);
-  if (sheets.FindSingle() < LeastShare)
-  {
-    return std::nullopt;
-  }
-  sheets.Clear();
-  const std::uint64_t edges = sheets.MarkTriangles(0, count);
-  if (edges != 0 || sheets.FindSingle() < LeastShare)
-  {
-    return std::nullopt;
-  }
-  return sheets.FindOthers();
+  const TriangleCells cells(sizes, SheetCellOverMean);
+  SheetCells sheets(surface, cells);
+  const std::uint64_t edges = sheets.MarkTriangles(0, sizes.count);
+  return edges == 0 && sheets.FindSingle() >= LeastShare
+           ? std::optional<std::vector<std::uint32_t>>(sheets.FindOthers())
+           : std::nullopt;
 }
 
 } // namespace itk

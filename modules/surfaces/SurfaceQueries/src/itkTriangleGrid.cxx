@@ -17,27 +17,20 @@ constexpr float LeastStep = -32500.0f;
 
 } // namespace
 
-std::optional<TriangleGrid>
-TriangleGrid::Make(const TriangleSurface & surface, const std::vector<std::uint8_t> & areUnfolded)
-{
-  const auto cells = TriangleCells::Make(surface, GridCellOverMean);
-  return cells ? std::optional<TriangleGrid>(TriangleGrid(surface, *cells, areUnfolded)) : std::nullopt;
-}
-
 /** Sorts the triangles into the cells: counts, sums, and entries filled in from the end of each cell. */
 TriangleGrid::TriangleGrid(const TriangleSurface & surface,
-                           const TriangleCells & cells,
+                           const TriangleSizes & sizes,
                            const std::vector<std::uint8_t> & areUnfolded)
   : m_Surface(&surface)
-  , m_Cells(cells)
+  , m_Cells(sizes, GridCellOverMean)
 {
   const std::size_t count = surface.GetNumberOfTriangles();
-  m_Begins = std::vector<std::atomic<std::uint32_t>>(cells.GetNumberOfCells() + 1);
+  m_Begins = std::vector<std::atomic<std::uint32_t>>(m_Cells.GetNumberOfCells() + 1);
   m_Entries.resize(count);
   std::array<float, 3> stepsPerMillimetre;
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
-    const float extent = cells.GetBox().highest[axis] - cells.GetBox().lowest[axis];
+    const float extent = m_Cells.GetBox().highest[axis] - m_Cells.GetBox().lowest[axis];
     stepsPerMillimetre[axis] = extent > 1e-30f ? StepsOfSurface / extent : 0.0f;
   }
   rhombic::ForEachInBlocks(count, TrianglesOfGridBlock, [&](std::size_t n) {
@@ -57,7 +50,7 @@ TriangleGrid::TriangleGrid(const TriangleSurface & surface,
     {
       const auto stepOf = [&](float coordinate) {
         return static_cast<std::int16_t>(LeastStep +
-                                         (coordinate - cells.GetBox().lowest[axis]) * stepsPerMillimetre[axis]);
+                                         (coordinate - m_Cells.GetBox().lowest[axis]) * stepsPerMillimetre[axis]);
       };
       entry.box[axis] = stepOf(box.lowest[axis]);
       entry.box[axis + 3] = stepOf(box.highest[axis]);

@@ -312,9 +312,23 @@ FindCrossingTriangles(const TriangleTree & tree,
                       rhombic::StagedProgress * progress,
                       double stageEnd)
 {
+  std::vector<std::uint8_t> areUnfolded(tree.GetSurface().GetNumberOfPoints()); // of corners of the tree's triangles
+  for (std::size_t leaf = 0; leaf < tree.GetNumberOfLeaves(); ++leaf)
+  {
+    for (const std::uint32_t triangle : tree.GetLeaf(leaf))
+    {
+      for (const std::uint32_t corner : tree.GetSurface().GetTriangles()[triangle])
+      {
+        areUnfolded[corner] = 1;
+      }
+    }
+  }
+  rhombic::ForEachInBlocks(areUnfolded.size(), BlockOfPoints, [&](std::size_t point) {
+    areUnfolded[point] =
+      areUnfolded[point] != 0 && IsUnfoldedPoint(tree.GetSurface(), fans, static_cast<std::uint32_t>(point));
+  });
   rhombic::StagedProgress silent({});
-  return FindAllCrossing(
-    tree, FindUnfoldedPoints(tree.GetSurface(), fans), least, progress == nullptr ? silent : *progress, stageEnd);
+  return FindAllCrossing(tree, std::move(areUnfolded), least, progress == nullptr ? silent : *progress, stageEnd);
 }
 
 std::vector<std::uint32_t>
@@ -349,13 +363,6 @@ FindCrossingTriangles(const TriangleTree & tree,
       });
     }
   });
-}
-
-std::vector<std::uint32_t>
-FindCrossingTriangles(const TriangleTree & tree, rhombic::StagedProgress & progress, double stageEnd)
-{
-  std::vector<std::uint8_t> areUnfolded(tree.GetSurface().GetNumberOfPoints()); // pairs at points are tested, too
-  return FindAllCrossing(tree, std::move(areUnfolded), Contact::Crossing, progress, stageEnd);
 }
 
 std::vector<std::uint32_t>

@@ -9,18 +9,37 @@
 namespace itk
 {
 
+/** \class TriangleSizes
+ * \brief How long the boxes of triangles are along each axis, which are of about the same size. */
+struct TriangleSizes
+{
+  /** Of the triangles [begin, end) of a surface. Nothing if there are none, some are far larger than others, or
+   * positions are not finite. */
+  static std::optional<TriangleSizes>
+  Find(const TriangleSurface & surface, std::size_t begin, std::size_t end);
+
+  static std::optional<TriangleSizes>
+  Find(const TriangleSurface & surface)
+  {
+    return Find(surface, 0, surface.GetNumberOfTriangles());
+  }
+
+  std::size_t count = 0; ///< of triangles
+  PointBox box{};        ///< around them
+  std::array<double, 3> longest{};
+  std::array<double, 3> mean{};
+};
+
 /** \class TriangleCells
- * \brief The cells of a grid around a surface whose triangles are of about the same size: none is longer than a cell
- * along any axis. The outermost cells are empty. */
+ * \brief The cells of a grid around triangles, none of which is longer than a cell along any axis. The outermost cells
+ * are empty. */
 class TriangleCells
 {
 public:
   using PointType = TriangleSurface::PointType;
 
-  /** Nothing if there are no triangles, some are far larger than others, or positions are not finite.
-   * \param cellOverMean length of a cell, over that of the triangles' boxes; more if some are long */
-  static std::optional<TriangleCells>
-  Make(const TriangleSurface & surface, double cellOverMean);
+  /** \param cellOverMean length of a cell, over that of the triangles' boxes; more if some are long */
+  TriangleCells(const TriangleSizes & sizes, double cellOverMean);
 
   /** The box around a triangle. */
   static PointBox
@@ -34,7 +53,7 @@ public:
     return box;
   }
 
-  /** The box around all points. */
+  /** The box around all triangles. */
   const PointBox &
   GetBox() const
   {
@@ -62,11 +81,15 @@ public:
 
   /** The number of the cell along an axis; it does not fall where the coordinate grows. */
   std::size_t
-  Find(double coordinate, unsigned int axis) const
+  Find(float coordinate, unsigned int axis) const
   {
-    const double cell = 1.0 + (coordinate - m_Box.lowest[axis]) * m_CellsPerMillimetre[axis];
-    return static_cast<std::uint32_t>(
-      static_cast<int>(std::min(static_cast<double>(m_Sizes[axis] - 1), std::max(0.0, cell))));
+    return this->ToNumber((coordinate - m_Box.lowest[axis]) * m_CellsPerMillimetre[axis], axis);
+  }
+
+  std::size_t
+  Find(const PointType & point) const
+  {
+    return this->Find(point[0], 0) + m_Sizes[0] * (this->Find(point[1], 1) + m_Sizes[1] * this->Find(point[2], 2));
   }
 
   /** The cell of the box's centre. */
@@ -76,7 +99,8 @@ public:
     std::size_t cell = 0;
     for (unsigned int axis = 3; axis-- > 0;)
     {
-      cell = cell * m_Sizes[axis] + this->Find(0.5 * (double{ box.lowest[axis] } + box.highest[axis]), axis);
+      const float low = box.lowest[axis] - m_Box.lowest[axis], high = box.highest[axis] - m_Box.lowest[axis];
+      cell = cell * m_Sizes[axis] + this->ToNumber(0.5f * (low + high) * m_CellsPerMillimetre[axis], axis);
     }
     return cell;
   }
@@ -85,8 +109,7 @@ public:
   float
   GetMiddle(std::size_t cell, unsigned int axis) const
   {
-    return static_cast<float>(m_Box.lowest[axis] +
-                              (static_cast<double>(cell) - 0.5) / std::max(m_CellsPerMillimetre[axis], 1e-30));
+    return m_Box.lowest[axis] + (static_cast<float>(cell) - 0.5f) / std::max(m_CellsPerMillimetre[axis], 1e-30f);
   }
 
   /** The cells that a box meets, from the first to the last along each axis. */
@@ -96,8 +119,8 @@ public:
     std::array<std::array<std::size_t, 3>, 2> ends;
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
-      ends[0][axis] = this->Find(double{ box.lowest[axis] }, axis);
-      ends[1][axis] = this->Find(double{ box.highest[axis] }, axis);
+      ends[0][axis] = this->Find(box.lowest[axis], axis);
+      ends[1][axis] = this->Find(box.highest[axis], axis);
     }
     return ends;
   }
@@ -125,11 +148,15 @@ public:
   }
 
 private:
-  bool
-  FindSizes(const TriangleSurface & surface, double cellOverMean);
+  std::size_t
+  ToNumber(float cells, unsigned int axis) const
+  {
+    return static_cast<std::uint32_t>(
+      static_cast<int>(std::min(static_cast<float>(m_Sizes[axis] - 1), std::max(0.0f, 1.0f + cells))));
+  }
 
-  PointBox m_Box{};
-  std::array<double, 3> m_CellsPerMillimetre{};
+  PointBox m_Box;
+  std::array<float, 3> m_CellsPerMillimetre{};
   std::array<std::size_t, 3> m_Sizes{}; ///< number of cells along each axis
 };
 

@@ -26,16 +26,10 @@ public:
     TriangleSurface::TriangleType unfoldedCorners; ///< the largest number in place of folded ones
   };
 
-  /** Nothing if some triangles are far larger than others, or positions are not finite. \param areUnfolded see
-   * FindUnfoldedPoints() */
-  static std::optional<TriangleGrid>
-  Make(const TriangleSurface & surface, const std::vector<std::uint8_t> & areUnfolded);
-
-  const TriangleCells &
-  GetCells() const
-  {
-    return m_Cells;
-  }
+  /** \param areUnfolded see FindUnfoldedPoints() */
+  TriangleGrid(const TriangleSurface & surface,
+               const TriangleSizes & sizes,
+               const std::vector<std::uint8_t> & areUnfolded);
 
   const TriangleSurface &
   GetSurface() const
@@ -80,10 +74,6 @@ public:
   }
 
 private:
-  TriangleGrid(const TriangleSurface & surface,
-               const TriangleCells & cells,
-               const std::vector<std::uint8_t> & areUnfolded);
-
   const Entry *
   EntriesFrom(std::size_t cell) const
   {
