@@ -352,7 +352,7 @@ UntangleTriangleSurface(TriangleSurface & surface,
   constexpr double cellOverMean = 2.5;
   const auto cells = sizes ? std::make_optional<TriangleCells>(*sizes, cellOverMean) : std::nullopt;
   Places original;
-  SearchedTriangles searched(surface, cells, FindTriangles(fans, FindPoints(surface, fans, crossing, false)));
+  SearchedTriangles searched(surface, cells, FindTriangles(fans, FindPoints(surface, fans, crossing, true)));
   for (const KeptRounds kept : { KeptRounds::All, KeptRounds::Better })
   {
     crossing = Untangle(surface, searched, fans, maximumMove, kept, std::move(crossing), original, progress);

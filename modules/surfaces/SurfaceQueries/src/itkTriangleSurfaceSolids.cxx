@@ -149,7 +149,7 @@ CountWindings(const TriangleSurface & surface,
               const std::vector<PointId> & points)
 {
   std::vector<std::atomic<int>> windings(points.size());
-  if (components.count > 1 && !points.empty())
+  if (components.count > 1)
   {
     const PointColumns columns(surface, points);
     rhombic::ForEachInBlocks(surface.GetNumberOfTriangles(), TrianglesOfRayBlock, [&](std::size_t id) {
@@ -196,24 +196,25 @@ FindOuterShells(const TriangleSurface & surface,
   return shells;
 }
 
-/** For each component, its point with the least x, and the one with the greatest. */
-std::array<std::vector<PointId>, 2>
+/** For each component, the point with the least x; behind these, for each component, the one with the greatest. */
+std::vector<PointId>
 FindEnds(const TriangleSurface & surface, const TriangleSurfaceComponents & components)
 {
   const auto & points = surface.GetPoints();
-  std::vector<PointId> least = FindTriangleSurfaceFirstPoints(components);
-  std::vector<PointId> greatest = least;
+  const std::vector<PointId> first = FindTriangleSurfaceFirstPoints(components);
+  std::vector<PointId> ends = first;
+  ends.insert(ends.end(), first.begin(), first.end());
   for (PointId point = 0; point < points.size(); ++point)
   {
     if (const ComponentId component = components.ofPoint[point]; component != TriangleSurfaceComponents::None)
     {
-      PointId & low = least[component];
-      PointId & high = greatest[component];
-      low = points[point][0] < points[low][0] ? point : low;
-      high = points[point][0] > points[high][0] ? point : high;
+      PointId & least = ends[component];
+      PointId & greatest = ends[components.count + component];
+      least = points[point][0] < points[least][0] ? point : least;
+      greatest = points[point][0] > points[greatest][0] ? point : greatest;
     }
   }
-  return { least, greatest };
+  return ends;
 }
 
 /** For each component, 1 if it is misfacing, see CountTriangleSurfaceShells(), else 0. */
@@ -222,29 +223,12 @@ FindMisfacing(const TriangleSurface & surface,
               const TriangleSurfaceComponents & components,
               const std::vector<double> & volumes)
 {
-  std::vector<ComponentId> suspects(components.count);
-  std::iota(suspects.begin(), suspects.end(), 0);
-  for (const std::vector<PointId> & ends : FindEnds(surface, components))
-  {
-    std::vector<PointId> points(suspects.size());
-    std::transform(
-      suspects.begin(), suspects.end(), points.begin(), [&ends](ComponentId component) { return ends[component]; });
-    const std::vector<int> windings = CountWindings(surface, components, points);
-    std::vector<ComponentId> left;
-    for (std::size_t n = 0; n < suspects.size(); ++n)
-    {
-      const int expected = volumes[suspects[n]] < 0.0 ? 1 : 0;
-      if (windings[n] != expected)
-      {
-        left.push_back(suspects[n]);
-      }
-    }
-    suspects.swap(left);
-  }
+  const std::vector<int> windings = CountWindings(surface, components, FindEnds(surface, components));
   std::vector<std::uint8_t> misfacing(components.count);
-  for (const ComponentId component : suspects)
+  for (ComponentId component = 0; component < components.count; ++component)
   {
-    misfacing[component] = 1;
+    const int expected = volumes[component] < 0.0 ? 1 : 0;
+    misfacing[component] = windings[component] != expected && windings[components.count + component] != expected;
   }
   return misfacing;
 }
