@@ -1,17 +1,15 @@
-// Why a pair of triangles that cross is found. Take a cell, an axis, and the lines along the axis through the cell.
-// Linked are cells of this column that follow each other if a triangle whose box meets the column reaches from one to
-// the next; the cell and all linked to it are its run. No triangle leaves the run within the column.
+// Why each pair of triangles that cross is found. Take a cell, an axis, and the lines along the axis through the cell.
+// Cells of this column that follow each other are linked if a triangle whose box meets the column reaches from one to
+// the next. The cell and all linked to it are its run: within the column, no triangle leaves the run.
 // * The surface is closed: each edge bounds as many triangles in one direction as in the other. Where a line moves
-// across
-//   an edge, the triangles at that edge within the column are in the same run, and the crossings gained and lost
-//   cancel, each counted with the side from which the line comes. So all lines cross the run's triangles equally often.
-// * All triangles of the run face the same way along the axis: each crossing counts the same. So all lines cross as
-// many
-//   triangles as the one that is counted, at most one, but for lines through edges and corners.
-// * If two triangles crossed in the cell, there would be a point of one inside the other, and as neither is parallel to
-// the
-//   axis, many lines near it would cross both.
-// A pair that crosses does so in some cell, and the boxes of both triangles meet it.
+//   across an edge, the triangles at that place of the edge are all in the run, and the crossings gained and lost
+//   cancel, if each counts with the side from which the line comes. So all lines cross the run equally often.
+// * All triangles of the run face the same way along the axis, so that all crossings count the same. Each line crosses
+//   as many triangles as the one through the middle, for which they are counted: at most one. (Lines through edges and
+//   corners are left aside.)
+// * If two triangles crossed in the cell, a point of one would lie inside the other, and as neither is parallel to the
+//   axis, many lines near that point would cross both.
+// A pair that crosses does so in some cell, and the boxes of both triangles meet that cell.
 #include "detail/itkPositionArithmetic.h"
 #include "detail/itkSingleSheets.h"
 #include "rhombicForEachBlock.h"
@@ -35,32 +33,40 @@ constexpr double RoundingOfProducts = 1e-14;    // of a product of two lengths, 
 /** What is known of the triangles that meet a cell. */
 namespace Mark
 {
-constexpr std::uint16_t Met = 1;
-constexpr std::uint16_t
+constexpr unsigned int
+OfBit(unsigned int bit)
+{
+  return 1U << bit;
+}
+constexpr unsigned int Met = OfBit(0);
+/** A triangle does not certainly face up along the axis. */
+constexpr unsigned int
 NotUp(unsigned int axis)
 {
-  return static_cast<std::uint16_t>(1U << (1 + axis)); ///< a triangle does not certainly face up along the axis
+  return OfBit(1 + axis);
 }
-constexpr std::uint16_t
+constexpr unsigned int
 NotDown(unsigned int axis)
 {
-  return static_cast<std::uint16_t>(1U << (4 + axis));
+  return OfBit(4 + axis);
 }
-constexpr std::uint16_t
+/** A triangle reaches to the next cell along the axis. */
+constexpr unsigned int
 Linked(unsigned int axis)
 {
-  return static_cast<std::uint16_t>(1U << (7 + axis)); ///< a triangle reaches to the next cell along the axis
+  return OfBit(7 + axis);
 }
-constexpr std::uint16_t
+/** The line through the cell's middle crosses a triangle that begins here. */
+constexpr unsigned int
 Once(unsigned int axis)
 {
-  return static_cast<std::uint16_t>(
-    1U << (10 + axis)); ///< the line through the cell's middle begins to cross a triangle
+  return OfBit(10 + axis);
 }
-constexpr std::uint16_t
+/** It crosses several, or may do so. */
+constexpr unsigned int
 Twice(unsigned int axis)
 {
-  return static_cast<std::uint16_t>(1U << (13 + axis)); ///< several, or this is not certain
+  return OfBit(13 + axis);
 }
 } // namespace Mark
 
@@ -74,7 +80,7 @@ LengthOf(double u, double v)
 }
 
 /** The marks of a triangle for its directions: which way it certainly faces. */
-std::uint16_t
+unsigned int
 MarkFacing(const Corners & corners)
 {
   const PositionType u = Subtract(ToPosition(corners[1]), ToPosition(corners[0]));
@@ -88,7 +94,7 @@ MarkFacing(const Corners & corners)
     marks |= normal[axis] > bound ? 0 : Mark::NotUp(axis);
     marks |= normal[axis] < -bound ? 0 : Mark::NotDown(axis);
   }
-  return static_cast<std::uint16_t>(marks);
+  return marks;
 }
 
 enum class Meeting
@@ -218,11 +224,13 @@ public:
 
 private:
   /** Returns the cell's marks before. */
-  std::uint16_t
-  Set(std::size_t cell, std::uint16_t marks)
+  unsigned int
+  Set(std::size_t cell, unsigned int marks)
   {
-    const std::uint16_t before = m_Marks[cell].load(std::memory_order_relaxed);
-    return (before & marks) == marks ? before : m_Marks[cell].fetch_or(marks, std::memory_order_relaxed);
+    const unsigned int before = m_Marks[cell].load(std::memory_order_relaxed);
+    return (before & marks) == marks
+             ? before
+             : m_Marks[cell].fetch_or(static_cast<std::uint16_t>(marks), std::memory_order_relaxed);
   }
 
   void
@@ -232,7 +240,7 @@ private:
     box.Add(corners[1]);
     box.Add(corners[2]);
     const auto [first, last] = m_Cells.FindEnds(box);
-    const std::uint16_t facing = MarkFacing(corners);
+    const unsigned int facing = MarkFacing(corners);
     for (std::size_t z = first[2]; z <= last[2]; ++z)
     {
       for (std::size_t y = first[1]; y <= last[1]; ++y)
@@ -241,8 +249,7 @@ private:
         {
           const unsigned int links = (x < last[0] ? Mark::Linked(0) : 0) | (y < last[1] ? Mark::Linked(1) : 0) |
                                      (z < last[2] ? Mark::Linked(2) : 0);
-          this->Set(x + y * m_Cells.GetStride(1) + z * m_Cells.GetStride(2),
-                    static_cast<std::uint16_t>(facing | links));
+          this->Set(x + y * m_Cells.GetStride(1) + z * m_Cells.GetStride(2), facing | links);
         }
       }
     }
@@ -276,9 +283,7 @@ private:
         {
           const std::size_t cell =
             atU * m_Cells.GetStride(u) + atV * m_Cells.GetStride(v) + first * m_Cells.GetStride(axis);
-          const bool isFirst =
-            meeting == Meeting::Yes &&
-            (m_Marks[cell].fetch_or(Mark::Once(axis), std::memory_order_relaxed) & Mark::Once(axis)) == 0;
+          const bool isFirst = meeting == Meeting::Yes && (this->Set(cell, Mark::Once(axis)) & Mark::Once(axis)) == 0;
           isFirst ? 0 : this->Set(cell, Mark::Twice(axis));
         }
       }
@@ -295,7 +300,7 @@ private:
       bool isLinked = true;
       for (end = begin; isLinked && end < m_Cells.GetSize(axis); ++end)
       {
-        const std::uint16_t ofCell = m_Marks[column + end * stride].load(std::memory_order_relaxed);
+        const unsigned int ofCell = m_Marks[column + end * stride].load(std::memory_order_relaxed);
         marks |= ofCell;
         crossings += (ofCell & Mark::Once(axis)) != 0 ? 1 : 0;
         isLinked = (ofCell & Mark::Linked(axis)) != 0;

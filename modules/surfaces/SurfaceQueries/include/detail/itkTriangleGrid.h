@@ -44,9 +44,8 @@ public:
     return m_Cells.GetSize(1) * m_Cells.GetSize(2);
   }
 
-  /** Calls \a visit(first, last) for the cells of a row that hold triangles, and for each of them, with parts of
-   * entries that follow each other, for the cells behind it that touch it: \a visitNext(first, last). Then
-   * \a end(). */
+  /** For each cell of a row that holds triangles: calls \a visit(first, last) for its entries, \a visitNext(first,
+   * last) several times for entries of the cells behind it that touch it, and \a end(). */
   template <typename TBegin, typename TNext, typename TEnd>
   void
   VisitCells(std::size_t row, const TBegin & visit, const TNext & visitNext, const TEnd & end) const
