@@ -313,7 +313,9 @@ FindCrossingTriangles(const TriangleTree & tree,
                       double stageEnd)
 {
   std::vector<std::uint8_t> areUnfolded(tree.GetSurface().GetNumberOfPoints()); // of corners of the tree's triangles
-  for (std::size_t leaf = 0; leaf < tree.GetNumberOfLeaves(); ++leaf)
+  const bool isWhole = tree.GetNumberOfPlacedTriangles() == tree.GetSurface().GetNumberOfTriangles();
+  std::fill(areUnfolded.begin(), areUnfolded.end(), std::uint8_t{ isWhole });
+  for (std::size_t leaf = 0; leaf < tree.GetNumberOfLeaves() && !isWhole; ++leaf)
   {
     for (const std::uint32_t triangle : tree.GetLeaf(leaf))
     {
