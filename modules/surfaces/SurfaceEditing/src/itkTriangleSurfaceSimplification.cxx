@@ -569,60 +569,27 @@ private:
     }
   }
 
-  /** Adds the triangles that meet others elsewhere than at shared corners and sides, for pairs with a new triangle and
-   * a triangle that has changed. */
+  /** Adds the triangles that meet others elsewhere than at shared corners and sides, for pairs with a triangle that has
+   * changed. */
   void
   FindContacts(const TriangleTree & state, Flags & isBad) const
   {
-    const auto & points = m_State.GetPoints();
-    const auto & triangles = m_State.GetTriangles();
-    const auto isActive = [&](const TriangleTree::Leaf & leaf) {
-      return std::any_of(leaf.begin(), leaf.end(), [&](TriangleId id) { return m_IsFresh[id] != 0; });
-    };
-    const auto mayMeet = [&](TriangleId one, TriangleId other) {
-      return (m_IsFresh[one] | m_IsFresh[other]) != 0 && (m_IsNew[one] | m_IsNew[other]) != 0;
-    };
-    const auto find = [&](std::size_t begin, std::size_t end, std::vector<TriangleId> & found) {
-      std::array<Box, TriangleTree::LeafSize> boxes;
-      for (std::size_t number = begin; number < end; ++number)
+    std::vector<TriangleId> fresh;
+    for (TriangleId id = 0; id < isBad.size(); ++id)
+    {
+      if (m_IsFresh[id] != 0)
       {
-        const TriangleTree::Leaf leaf = state.GetLeaf(number);
-        m_Progress.Completed(leaf.size());
-        if (!isActive(leaf))
-        {
-          continue;
-        }
-        std::transform(leaf.begin(), leaf.end(), boxes.begin(), [&](TriangleId id) {
-          return TriangleTree::BoxOf(points, triangles[id]);
-        });
-        Box box = boxes[0];
-        std::for_each(boxes.begin() + 1, boxes.begin() + leaf.size(), [&box](const Box & more) { box.Add(more); });
-        state.VisitLeaves(box, 0, [&](std::size_t otherNumber) {
-          const TriangleTree::Leaf others = state.GetLeaf(otherNumber);
-          if (otherNumber < number && isActive(others)) // this pair of leaves was visited from there
-          {
-            return;
-          }
-          for (const TriangleId other : others)
-          {
-            const Box otherBox = TriangleTree::BoxOf(points, triangles[other]);
-            for (std::size_t n = 0; n < leaf.size(); ++n)
-            {
-              const TriangleId id = leaf.begin()[n];
-              if (otherBox.Overlaps(boxes[n]) && mayMeet(id, other) && (otherNumber != number || id < other) &&
-                  FindContact(points, triangles[id], triangles[other]) != TriangleContact::Apart)
-              {
-                found.insert(found.end(), { id, other });
-              }
-            }
-          }
-        });
+        fresh.push_back(id);
       }
-    };
-    for (const TriangleId id : CollectIds(state.GetNumberOfLeaves(), SimplifiedBlock / TriangleTree::LeafSize, find))
+    }
+    const TrianglesOfPoints fans(m_State);
+    const bool areMany = fresh.size() > isBad.size() / 2;
+    for (const TriangleId id : areMany ? FindCrossingTriangles(state, fans, TriangleContact::Touching)
+                                       : FindCrossingTriangles(state, fans, fresh, TriangleContact::Touching))
     {
       isBad[id] = 1;
     }
+    m_Progress.Completed(isBad.size());
   }
 
   /** Adds the triangles that have changed and are farther than maximumError from the original. */
