@@ -461,6 +461,11 @@ def check_preset(data, answer):
     return check_words(answer, expected)
 
 
+def normal(folder, word):
+    """The path as std::filesystem::path::lexically_normal() has it: what ends as a folder does ends with a slash."""
+    return os.path.normpath(os.path.join(folder, word)) + "/" * (word.split("/")[-1] in ("", ".", ".."))
+
+
 def check_cases(path, data, answer):
     head, *lines = [line.rstrip("\r").split("\t") for line in data.decode("utf-8", "surrogateescape").split("\n")]
     expected, folder = [], os.path.realpath(os.path.dirname(path))
@@ -468,7 +473,7 @@ def check_cases(path, data, answer):
         if any(word.strip() for word in line):
             row = dict(zip(head, line))
             assert len(line) == len(head)
-            expected += [row["case"], *(os.path.normpath(os.path.join(folder, row[k])) if row.get(k) else "" for k in ("scan", "labels"))]
+            expected += [row["case"], *(normal(folder, row[k]) if row.get(k) else "" for k in ("scan", "labels"))]
     return check_words(answer, expected)
 
 
