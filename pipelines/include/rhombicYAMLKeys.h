@@ -39,8 +39,8 @@ FindForbiddenInYAML(const std::string & text)
   return text.size();
 }
 
-/** Parses YAML, which is text in UTF-8 without control characters. Throws YAMLMistake for others, and YAML::Exception.
- */
+/** Parses YAML of one document, which is text in UTF-8 without control characters. Throws YAMLMistake for others, and
+ * YAML::Exception. yaml-cpp would leave out what is behind the first document. */
 inline YAML::Node
 LoadYAML(const std::string & text)
 {
@@ -58,7 +58,12 @@ LoadYAML(const std::string & text)
     throw YAMLMistake("has a control character in line " +
                       std::to_string(1 + std::count(text.begin(), forbidden, '\n')));
   }
-  return YAML::Load(text);
+  const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+  if (documents.size() > 1 || text.find("\n%") != std::string::npos)
+  {
+    throw YAMLMistake("has more than one document");
+  }
+  return documents.empty() ? YAML::Node() : documents.front();
 }
 
 /** Throws YAMLMistake for a node that is no map, for a key that is there twice, and for one that \a known does not

@@ -72,7 +72,7 @@ ParseSurface(const YAML::Node & node)
     { "name", "isovalue", "side", "parts", "colour", "opacity", "min-volume", "largest", "fill", "smooth", "look" });
   for (const char * key : { "name", "isovalue" })
   {
-    if (!node[key] || node[key].IsNull())
+    if (!node[key] || node[key].Scalar().empty()) // as by '', or a tag without a value
     {
       throw YAMLMistake("has a surface without " + std::string(key));
     }

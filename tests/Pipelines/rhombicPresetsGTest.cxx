@@ -156,8 +156,14 @@ TEST(Presets, RefuseDamagedFiles)
                              "name: x\nsurfaces: [{name: a, isovalue: 1}]\nrules: [{match: a, opacity: 2}]",
                              "name: x\nsurfaces: [{name: a, isovalue: 1, isovalue: 2}]",
                              "name: x\nsurfaces: [{name: , isovalue: 1}]",
+                             "name: x\nsurfaces: [{name: '', isovalue: 1}]",
+                             "name: x\nsurfaces: [{name: !, isovalue: 1}]",
+                             "name: x\nsurfaces: [{name: !!str , isovalue: 1}]",
                              "name: x\ndenoise: much\nsurfaces: [{name: a, isovalue: 1}]",
                              "name: x\ndescription: \xE4\nsurfaces: [{name: a, isovalue: 1}]",
+                             "name: x\nsurfaces: [{name: a, isovalue: 1}]\n---\nname: y\n",
+                             "name: x\nsurfaces: [{name: a, isovalue: 1}]\n%u",
+                             "{name: x, surfaces: [{name: a, isovalue: 1}]} rules: []",
                              "name: [x\n" })
   {
     const auto sentence =
