@@ -129,13 +129,19 @@ TEST_F(TextVolume, GeometryThatMakesNoSenseIsRefused)
                                         "(1,0,0) (0,1,0)",
                                         "(1,0) (0,1) (1,0)",
                                         "(1,0,0) (0,1,0) (0,0,1",
+                                        "(1,0,0) (0,1,0) ((0,0,1)",
                                         "(1,0,0) (0,1,0) (0,0,x)" })
   {
     const auto path = this->WriteNRRD(Raw + "space: LPS\nspace directions: " + directions + "\n");
     EXPECT_EQ(KindOfReading(path, "space directions"), FailureKind::Geometry) << directions;
   }
-  EXPECT_EQ(KindOfReading(this->WriteNRRD(Raw + "space origin: : (7,-8,9)\n"), "space origin"), FailureKind::Geometry)
-    << "also where it is not needed";
+  for (const std::string origin : { ": (7,-8,9)", "(7,-8,9", "(7,(-8,9)" })
+  {
+    EXPECT_EQ(KindOfReading(this->WriteNRRD(Raw + "space origin: " + origin + "\n"), "space origin"),
+              FailureKind::Geometry)
+      << origin << ", also where it is not needed";
+  }
+  EXPECT_EQ(KindOfReading(this->WriteNRRD(Raw + "spacings: 1 2(3\n"), "spacings"), FailureKind::Geometry);
   for (const std::string matrix : { "1 0 0 0 1 0 0 0 0", "1 0 0 0 1 0 1 1 0", "1 0 0 0 1 0 0 0 inf", "1 0 0", "a b c" })
   {
     const auto path = this->WriteMetaImage(Meta + "TransformMatrix = " + matrix + "\n");

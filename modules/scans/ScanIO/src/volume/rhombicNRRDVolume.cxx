@@ -50,7 +50,7 @@ DirectionsOf(const NRRDHeader & header, std::size_t dimension, const fs::path & 
       directions.emplace_back();
       end = position + 3;
     }
-    else if (const auto numbers = NumbersOf(text.substr(position, end - position));
+    else if (const auto numbers = NumbersOf(text.substr(position, end - position + 1));
              text[position] == '(' && end != std::string::npos && numbers && numbers->size() >= 3)
     {
       directions.push_back(*numbers);

@@ -93,9 +93,9 @@ HeaderLines::Read(std::string & line)
 std::optional<std::vector<double>>
 NumbersOf(const std::string & text)
 {
-  std::string words = text;
-  std::replace_if(
-    words.begin(), words.end(), [](char letter) { return letter == ',' || letter == '(' || letter == ')'; }, ' ');
+  const bool isInParentheses = text.size() > 1 && text.front() == '(' && text.back() == ')';
+  std::string words = isInParentheses ? text.substr(1, text.size() - 2) : text;
+  std::replace(words.begin(), words.end(), ',', ' ');
   return Parse<double>(words);
 }
 

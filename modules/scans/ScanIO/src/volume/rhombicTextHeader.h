@@ -61,8 +61,8 @@ private:
   std::uintmax_t m_Size = 0;
 };
 
-/** The numbers of a text, separated by blanks, commas and parentheses; nothing when the text has anything else. Numbers
- * may be "nan" or "inf". */
+/** The numbers of a text, separated by blanks and commas, all in parentheses or none; nothing when the text has
+ * anything else. Numbers may be "nan" or "inf". */
 std::optional<std::vector<double>>
 NumbersOf(const std::string & text);
 
