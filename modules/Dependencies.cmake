@@ -38,6 +38,8 @@ target_compile_options(RhombicOptions INTERFACE
   $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage> # a unity build takes sources for headers
   $<$<BOOL:${RHOMBIC_STRICT}>:-Werror>)
 if(RHOMBIC_SANITIZER)
-  target_compile_options(RhombicOptions INTERFACE -fsanitize=${RHOMBIC_SANITIZER} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_compile_options(RhombicOptions INTERFACE
+    -fsanitize=${RHOMBIC_SANITIZER} -fno-sanitize-recover=all -fno-omit-frame-pointer
+    $<$<CXX_COMPILER_ID:GNU>:-fsanitize-recover=pointer-overflow>) # for tests/ubsan.supp; halt_on_error ends the process
   target_link_options(RhombicOptions INTERFACE -fsanitize=${RHOMBIC_SANITIZER})
 endif()
