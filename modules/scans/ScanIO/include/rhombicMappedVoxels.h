@@ -1,6 +1,7 @@
 #ifndef rhombicMappedVoxels_h
 #define rhombicMappedVoxels_h
 
+#include "rhombicMappedPages.h"
 #include "rhombicScan.h"
 
 #include <filesystem>
@@ -29,15 +30,14 @@ IsMapped(const ScanImage & image);
 VoxelPlace
 PlaceOf(const ScanImage & image);
 
-/** Throws Failure(Memory), naming \a scan, when the folder of temporary files, which TMPDIR names, else /tmp, has no
- * room for \a size bytes, or is in memory itself. */
-void
-RequireRoomForTemporaryFile(std::uintmax_t size, const std::filesystem::path & scan);
+/** Temporary files for the voxels of \a scan. */
+TemporaryStore
+VoxelStore(const std::filesystem::path & scan, const std::filesystem::path & folder);
 
 /** Allocates the pixels of the largest possible region in a temporary file without a name. It goes away with the image.
- * Pixels are 0. Throws Failure(Memory), naming \a scan, when there is no room. */
+ * Pixels are 0. Throws Failure(Memory) when there is no room. */
 void
-AllocateInTemporaryFile(const ScanImage & image, const std::filesystem::path & scan);
+AllocateInTemporaryFile(const ScanImage & image, const TemporaryStore & store);
 
 /** Takes the pages of a mapped image that are in memory out of the process, and drops them if the file is larger than
  * the free memory: for work that goes on elsewhere in the image, so that they do not count as memory of the process or

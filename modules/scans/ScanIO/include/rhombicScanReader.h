@@ -79,6 +79,9 @@ struct ScanReadOptions
   /** The largest memory of the volume in bytes; 0, the default: half of the free memory. */
   std::uintmax_t maximumMemory = 0;
 
+  /** The folder of temporary files, for what does not fit; empty, the default: the one that TMPDIR names, else /tmp. */
+  std::filesystem::path temporaryFolder;
+
   /** Called on the calling thread with the progress of reading the voxels, from 0 to 1; may be empty. */
   std::function<void(double)> progress;
 };

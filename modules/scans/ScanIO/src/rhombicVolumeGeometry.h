@@ -67,16 +67,16 @@ NewFrame(const VolumeGeometry & geometry)
 }
 
 /** An allocated image of this geometry, without initial values.
- * \param largeScan the path of a scan that does not fit into memory: its pixels are put into a temporary file (see
- * AllocateInTemporaryFile()); empty for others */
+ * \param store of a scan that does not fit into memory: its pixels are put into a temporary file (see
+ * AllocateInTemporaryFile()); by default none */
 template <typename TPixel>
 typename itk::Image<TPixel, 3>::Pointer
-NewImage(const VolumeGeometry & geometry, const std::filesystem::path & largeScan = {})
+NewImage(const VolumeGeometry & geometry, const TemporaryStore & store = {})
 {
   auto image = NewFrame<TPixel>(geometry);
-  if (!largeScan.empty())
+  if (!store.what.empty())
   {
-    AllocateInTemporaryFile(image, largeScan);
+    AllocateInTemporaryFile(image, store);
     return image;
   }
   image->SetRegions(geometry.size);

@@ -6,6 +6,7 @@
 #include "itkProcessObject.h"
 
 #include <cstdint>
+#include <filesystem>
 
 namespace rhombic
 {
@@ -15,9 +16,12 @@ namespace rhombic
  * volume gives the same lattice whatever the order of its axes in the file. The voxels are copied only if axes change.
  * Slanted scans keep the order of their slices. Of a scan without voxels only the geometry changes. Copies that do not
  * fit are made in a temporary file (AllocateInTemporaryFile()). Throws Failure(Memory), before any work, when there is
- * no room for it. \param maximumMemory bytes for the copies; 0: half of the free memory */
+ * no room for it. \param maximumMemory bytes for the copies; 0: half of the free memory
+ * \param temporaryFolder as ScanReadOptions has it */
 Scan
-OrderAlongPatient(const Scan & scan, std::uintmax_t maximumMemory = 0);
+OrderAlongPatient(const Scan & scan,
+                  std::uintmax_t maximumMemory = 0,
+                  const std::filesystem::path & temporaryFolder = {});
 
 /** An image whose third axis is the one that work goes on along, plane by plane. */
 struct DeepImage

@@ -98,10 +98,14 @@ NewFrameOf(const TImage & image)
 /** Makes the output of \a filters in a temporary file, as many slices at a time as fit into \a allowed bytes. */
 template <typename TImage>
 typename TImage::Pointer
-OrderInTemporaryFile(const AxisFilters<TImage> & filters, const ScanImage & input, std::uintmax_t allowed)
+OrderInTemporaryFile(const AxisFilters<TImage> & filters,
+                     const ScanImage & input,
+                     std::uintmax_t allowed,
+                     const std::filesystem::path & folder)
 {
   const typename TImage::Pointer ordered = NewFrameOf(*filters.output);
-  AllocateInTemporaryFile(ScanImage(ordered), "the scan with its axes in the order of the patient's");
+  AllocateInTemporaryFile(ScanImage(ordered),
+                          { folder, "Cannot put the axes of the scan in the order of the patient's: its voxels" });
   itk::ImageRegion<3> slab = ordered->GetLargestPossibleRegion();
   const std::size_t depth = slab.GetSize(2);
   const std::size_t pixels = slab.GetNumberOfPixels() / depth; // of a slice
@@ -125,7 +129,7 @@ OrderInTemporaryFile(const AxisFilters<TImage> & filters, const ScanImage & inpu
 
 template <typename TImage>
 typename TImage::Pointer
-OrderAxes(typename TImage::Pointer image, std::uintmax_t maximumMemory)
+OrderAxes(typename TImage::Pointer image, std::uintmax_t maximumMemory, const std::filesystem::path & folder)
 {
   const AxisFilters<TImage> filters(*image);
   const itk::ImageRegion<3> & region = image->GetLargestPossibleRegion();
@@ -141,7 +145,7 @@ OrderAxes(typename TImage::Pointer image, std::uintmax_t maximumMemory)
   }
   if (bytes > allowed)
   {
-    return OrderInTemporaryFile(filters, ScanImage(image), allowed / 2);
+    return OrderInTemporaryFile(filters, ScanImage(image), allowed / 2, folder);
   }
   filters.output->Update();
   const typename TImage::Pointer output = filters.output;
@@ -205,14 +209,13 @@ MakeDeep(const ScanImage & image)
 }
 
 Scan
-OrderAlongPatient(const Scan & scan, std::uintmax_t maximumMemory)
+OrderAlongPatient(const Scan & scan, std::uintmax_t maximumMemory, const std::filesystem::path & folder)
 {
   Scan ordered = scan;
   if (!IsSlanted(scan))
   {
-    std::visit(
-      [maximumMemory](auto & image) { image = OrderAxes<std::decay_t<decltype(*image)>>(image, maximumMemory); },
-      ordered.image);
+    std::visit([&](auto & image) { image = OrderAxes<std::decay_t<decltype(*image)>>(image, maximumMemory, folder); },
+               ordered.image);
   }
   return ordered;
 }

@@ -311,7 +311,7 @@ FindPlace(const std::vector<DicomSlice> & slices,
   {
     return VoxelPlace::Memory;
   }
-  RequireRoomForTemporaryFile(bytes, FolderOf(slices));
+  RequireRoom(VoxelStore(FolderOf(slices), options.temporaryFolder), bytes);
   return VoxelPlace::TemporaryFile;
 }
 
@@ -322,8 +322,8 @@ ReadAs(const std::vector<DicomSlice> & slices, const VolumeGeometry & geometry, 
 {
   const std::vector<FileSlices> files = GroupByFile(slices);
   const VoxelPlace place = FindPlace(slices, files, geometry.GetNumberOfVoxels() * sizeof(TPixel), options);
-  const auto image =
-    NewImage<TPixel>(geometry, place == VoxelPlace::Memory ? std::filesystem::path() : FolderOf(slices));
+  const auto image = NewImage<TPixel>(
+    geometry, place == VoxelPlace::Memory ? TemporaryStore() : VoxelStore(FolderOf(slices), options.temporaryFolder));
   const std::size_t sliceSize = geometry.size[0] * geometry.size[1];
   std::vector<SliceValues> values(slices.size());
   std::atomic<bool> fits{ true };

@@ -109,7 +109,7 @@ FindPlace(const OMEZarrImage & image, const ScanReadOptions & options, const fs:
                 image.GetNumberOfLevels() > options.level + 1
                   ? "choose a coarser level of its pyramid with ScanReadOptions::level"
                   : "");
-  RequireRoomForTemporaryFile(pixels, path);
+  RequireRoom(VoxelStore(path, options.temporaryFolder), pixels);
   return VoxelPlace::TemporaryFile;
 }
 
@@ -121,12 +121,13 @@ ReadZarrVoxels(const OMEZarrImage & image,
                const ScanReadOptions & options,
                const fs::path & path)
 {
-  const fs::path largeScan = FindPlace(image, options, path) == VoxelPlace::Memory ? fs::path() : path;
+  const bool isInMemory = FindPlace(image, options, path) == VoxelPlace::Memory;
+  const TemporaryStore store = isInMemory ? TemporaryStore() : VoxelStore(path, options.temporaryFolder);
   const auto read = [&](auto stored) -> ScanImage {
     using Stored = decltype(stored);
     if constexpr (IsPixel<Stored>)
     {
-      const auto voxels = NewImage<Stored>(geometry, largeScan);
+      const auto voxels = NewImage<Stored>(geometry, store);
       image.Read(frame, geometry.size, voxels->GetBufferPointer(), options.progress);
       return voxels;
     }
@@ -134,7 +135,7 @@ ReadZarrVoxels(const OMEZarrImage & image,
     {
       ZarrBands bands(image, frame, options.progress);
       const auto source = [&bands](std::byte * buffer, std::size_t size) { bands.Read(buffer, size); };
-      return ReadVolumePixels(image.GetType(), std::nullopt, geometry, source, largeScan);
+      return ReadVolumePixels(image.GetType(), std::nullopt, geometry, source, store);
     }
   };
   return std::visit(read, image.GetType());

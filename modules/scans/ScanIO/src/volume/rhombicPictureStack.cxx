@@ -281,7 +281,7 @@ ScanImage
 ReadStack(const PictureStack & stack,
           StoredType type,
           const VolumeGeometry & geometry,
-          const fs::path & largeScan,
+          const TemporaryStore & store,
           const ProgressFunction & progress)
 {
   const std::size_t sliceBytes = stack.GetSliceBytes();
@@ -289,7 +289,7 @@ ReadStack(const PictureStack & stack,
     using Stored = decltype(stored);
     if constexpr (std::is_constructible_v<ScanImage, typename itk::Image<Stored, 3>::Pointer>)
     {
-      const auto image = NewImage<Stored>(geometry, largeScan);
+      const auto image = NewImage<Stored>(geometry, store);
       auto * const values = reinterpret_cast<std::byte *>(image->GetBufferPointer());
       ForEachOnThreads(
         geometry.size[2], [&](std::size_t n) { stack.Read(n, values + n * sliceBytes); }, progress);
@@ -319,7 +319,7 @@ ReadStack(const PictureStack & stack,
           size -= count;
         }
       };
-      return ReadVolumePixels(type, std::nullopt, geometry, source, largeScan);
+      return ReadVolumePixels(type, std::nullopt, geometry, source, store);
     }
   };
   return std::visit(read, type);
@@ -432,12 +432,13 @@ OpenPictureStack(const std::vector<fs::path> & pictures, const fs::path & path, 
     {
       return VoxelPlace::Memory;
     }
-    RequireRoomForTemporaryFile(bytes, path);
+    RequireRoom(VoxelStore(path, options.temporaryFolder), bytes);
     return VoxelPlace::TemporaryFile;
   };
   file.readVoxels = [=, findPlace = file.findPlace](Scan & read) {
     const bool isLarge = findPlace() == VoxelPlace::TemporaryFile;
-    read.image = ReadStack(stack, type, geometry, isLarge ? path : fs::path(), options.progress);
+    const TemporaryStore store = isLarge ? VoxelStore(path, options.temporaryFolder) : TemporaryStore();
+    read.image = ReadStack(stack, type, geometry, store, options.progress);
     ReplaceNotFinite(path, read);
   };
   file.native = NativeVoxelsOfStack(stack, type, geometry);

@@ -123,13 +123,13 @@ SwapBytes(std::byte * buffer, std::size_t size, std::size_t valueSize);
 using VoxelSource = std::function<void(std::byte * buffer, std::size_t size)>;
 
 /** Reads the voxels of a volume in one pass, converted as OpenScan() documents. Throws what \a source throws.
- * \param largeScan see NewImage() */
+ * \param store see NewImage() */
 ScanImage
 ReadVolumePixels(StoredType type,
                  const std::optional<ValueScaling> & scaling,
                  const VolumeGeometry & geometry,
                  const VoxelSource & source,
-                 const std::filesystem::path & largeScan = {});
+                 const TemporaryStore & store = {});
 
 /** Whether the voxels of a frame can be used as the file holds them. */
 bool

@@ -147,12 +147,12 @@ private:
   std::uintmax_t m_Position = 0; ///< bytes of the frame that were passed
 };
 
-/** Reads one frame, in one pass. \a largeScan see NewImage(). */
+/** Reads one frame, in one pass. \a store see NewImage(). */
 ScanImage
 ReadStoredVoxels(const StoredVolume & volume,
                  std::uintmax_t frame,
                  const ScanReadOptions & options,
-                 const fs::path & largeScan = {})
+                 const TemporaryStore & store = {})
 {
   FrameBytes bytes(volume, frame, volume.geometry.size);
   const auto total = static_cast<double>(volume.geometry.GetNumberOfVoxels() * SizeOf(volume.type));
@@ -165,7 +165,7 @@ ReadStoredVoxels(const StoredVolume & volume,
       options.progress(static_cast<double>(done) / total);
     }
   };
-  ScanImage image = ReadVolumePixels(volume.type, volume.scaling, volume.geometry, read, largeScan);
+  ScanImage image = ReadVolumePixels(volume.type, volume.scaling, volume.geometry, read, store);
   bytes.RequireEnd();
   return image;
 }
@@ -208,7 +208,7 @@ FindPlace(const StoredVolume & volume, std::uintmax_t frame, const fs::path & pa
   }
   if (bytes > allowed)
   {
-    RequireRoomForTemporaryFile(bytes, path);
+    RequireRoom(VoxelStore(path, options.temporaryFolder), bytes);
   }
   return bytes > allowed ? VoxelPlace::TemporaryFile : VoxelPlace::Memory;
 }
@@ -222,7 +222,9 @@ ReadOrMapVoxels(const StoredVolume & volume,
 {
   const VoxelPlace place = FindPlace(volume, frame, path, options);
   const auto mapped = place == VoxelPlace::File ? MapVoxels(volume, frame) : std::nullopt;
-  return mapped ? *mapped : ReadStoredVoxels(volume, frame, options, place == VoxelPlace::Memory ? fs::path() : path);
+  const TemporaryStore store =
+    place == VoxelPlace::TemporaryFile ? VoxelStore(path, options.temporaryFolder) : TemporaryStore();
+  return mapped ? *mapped : ReadStoredVoxels(volume, frame, options, store);
 }
 
 /** Reads and checks the header. Describes in \a scan what the result can't hold. */

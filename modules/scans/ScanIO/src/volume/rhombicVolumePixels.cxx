@@ -42,9 +42,9 @@ ForEachChunk(std::size_t total, const VoxelSource & source, const TUse & use)
 
 template <typename TPixel>
 ScanImage
-ReadDirectly(const VolumeGeometry & geometry, const VoxelSource & source, const std::filesystem::path & largeScan)
+ReadDirectly(const VolumeGeometry & geometry, const VoxelSource & source, const TemporaryStore & store)
 {
-  const auto image = NewImage<TPixel>(geometry, largeScan);
+  const auto image = NewImage<TPixel>(geometry, store);
   auto * const begin = reinterpret_cast<std::byte *>(image->GetBufferPointer());
   const std::size_t total = image->GetBufferedRegion().GetNumberOfPixels() * sizeof(TPixel);
   constexpr std::size_t step = ChunkVoxels * sizeof(TPixel);
@@ -87,7 +87,7 @@ Convert(const TStored * values, std::size_t count, itk::Image<TPixel, 3> & image
 /** For integers wider than any pixel type of ScanImage: int32 if all values fit, else float. */
 template <typename TStored>
 ScanImage
-ReadWide(const VolumeGeometry & geometry, const VoxelSource & source, const std::filesystem::path & largeScan)
+ReadWide(const VolumeGeometry & geometry, const VoxelSource & source, const TemporaryStore & store)
 {
   using Limits = std::numeric_limits<std::int32_t>;
   const auto fits = [](TStored value) {
@@ -95,12 +95,12 @@ ReadWide(const VolumeGeometry & geometry, const VoxelSource & source, const std:
            (std::is_unsigned_v<TStored> || value >= static_cast<TStored>(Limits::min()));
   };
   const std::size_t total = geometry.GetNumberOfVoxels();
-  auto integers = NewImage<std::int32_t>(geometry, largeScan);
+  auto integers = NewImage<std::int32_t>(geometry, store);
   itk::Image<float, 3>::Pointer floats;
   ForEachChunk<TStored>(total, source, [&](const TStored * values, std::size_t count, std::size_t first) {
     if (!floats && !std::all_of(values, values + count, fits))
     {
-      floats = NewImage<float>(geometry, largeScan);
+      floats = NewImage<float>(geometry, store);
       Convert(integers->GetBufferPointer(), first, *floats, 0);
       integers = nullptr;
     }
@@ -160,28 +160,28 @@ ReadVolumePixels(StoredType type,
                  const std::optional<ValueScaling> & scaling,
                  const VolumeGeometry & geometry,
                  const VoxelSource & source,
-                 const std::filesystem::path & largeScan)
+                 const TemporaryStore & store)
 {
   const auto read = [&](auto stored) -> ScanImage {
     using Stored = decltype(stored);
     using Pixel = PixelFor<Stored>;
     if (scaling)
     {
-      const auto image = NewImage<float>(geometry, largeScan);
+      const auto image = NewImage<float>(geometry, store);
       ReadScaled<Stored>(geometry.GetNumberOfVoxels(), source, *scaling, image->GetBufferPointer());
       return image;
     }
     if constexpr (IsWide<Stored>)
     {
-      return ReadWide<Stored>(geometry, source, largeScan);
+      return ReadWide<Stored>(geometry, source, store);
     }
     else if constexpr (std::is_same_v<Stored, Pixel>)
     {
-      return ReadDirectly<Pixel>(geometry, source, largeScan);
+      return ReadDirectly<Pixel>(geometry, source, store);
     }
     else
     {
-      const auto image = NewImage<Pixel>(geometry, largeScan);
+      const auto image = NewImage<Pixel>(geometry, store);
       const auto convert = [](Stored value) { return static_cast<Pixel>(value); };
       ReadConverted<Stored>(geometry.GetNumberOfVoxels(), source, convert, image->GetBufferPointer());
       return image;

@@ -1,0 +1,85 @@
+#include "rhombicBulkMemory.h"
+
+#include "rhombicFailure.h"
+#include "rhombicTemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+
+namespace
+{
+
+constexpr std::size_t Size = std::size_t{ 5 } << 20;
+
+/** How many pages of files of a folder the process has mapped. */
+int
+CountMapped(const std::filesystem::path & folder)
+{
+  std::ifstream maps("/proc/self/maps");
+  int count = 0;
+  for (std::string line; std::getline(maps, line);)
+  {
+    count += line.find(folder.string()) != std::string::npos ? 1 : 0;
+  }
+  return count;
+}
+
+TEST(BulkMemory, BlocksArePagesOfFilesWithoutANameWhileAskedFor)
+{
+  const rhombictest::TemporaryFolder folder;
+  const rhombic::TemporaryStore store{ folder.Path(), "Cannot do this: the blocks" };
+  if (!FindObstacle(store, 3 * Size).empty())
+  {
+    GTEST_SKIP() << FindObstacle(store, 3 * Size);
+  }
+  void * const before = rhombic::AllocateBulk(Size);
+  void * within = nullptr;
+  {
+    const rhombic::BulkInTemporaryFiles files(store);
+    within = rhombic::AllocateBulk(Size);
+    rhombic::FreeBulk(before);
+    EXPECT_EQ(CountMapped(folder.Path()), 1);
+    rhombic::FreeBulk(rhombic::AllocateBulk(Size));
+    EXPECT_EQ(CountMapped(folder.Path()), 1);
+    EXPECT_TRUE(std::filesystem::is_empty(folder.Path()));
+  }
+  std::memset(within, 255, Size);
+  void * const after = rhombic::AllocateBulk(Size);
+  EXPECT_EQ(CountMapped(folder.Path()), 1) << "which outlives the object";
+  rhombic::FreeBulk(within);
+  EXPECT_EQ(CountMapped(folder.Path()), 0);
+  rhombic::FreeBulk(after);
+}
+
+TEST(BulkMemory, FoldersWithoutRoomAreRefusedInWords)
+{
+  const rhombictest::TemporaryFolder folder;
+  const auto sentenceOf = [](const std::filesystem::path & path, std::uintmax_t size) -> std::string {
+    try
+    {
+      rhombic::RequireRoom({ path, "Cannot do this: the blocks" }, size);
+    }
+    catch (const rhombic::Failure & failure)
+    {
+      EXPECT_EQ(failure.GetKind(), rhombic::FailureKind::Memory);
+      return failure.GetDescription();
+    }
+    return "no exception";
+  };
+  const std::string begin = "Cannot do this: the blocks are too large for the memory that is allowed, and can't be put "
+                            "into temporary files in ";
+  EXPECT_EQ(sentenceOf(folder.Path() / "none", Size),
+            begin + (folder.Path() / "none").string() +
+              " (which is not there); name a folder on a disk with more room by temporaryFolder = FOLDER.");
+  EXPECT_NE(sentenceOf("/dev/shm", Size).find("(it is in memory itself)"), std::string::npos);
+  if (rhombic::FindObstacle({ folder.Path(), {} }, Size).empty())
+  {
+    EXPECT_NE(sentenceOf(folder.Path(), std::uintmax_t{ 1 } << 60).find("are free, and 1048576.0 TiB are needed"),
+              std::string::npos);
+  }
+}
+
+} // namespace
