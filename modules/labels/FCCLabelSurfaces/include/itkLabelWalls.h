@@ -31,7 +31,7 @@ public:
 
   using LabelType = std::uint16_t;
   using LabelPairType = std::array<LabelType, 2>;
-  using LabelPairsContainer = std::vector<LabelPairType, BulkAllocator<LabelPairType>>;
+  using LabelPairsContainer = BulkVector<LabelPairType>;
 
   /** The labels of each triangle. */
   LabelPairsContainer &

@@ -16,7 +16,7 @@ struct CentredTriangle
   std::uint32_t id;
 };
 
-using CentredTriangles = std::vector<CentredTriangle, BulkAllocator<CentredTriangle>>;
+using CentredTriangles = BulkVector<CentredTriangle>;
 
 constexpr std::size_t BlockSize = 4096;
 

@@ -61,7 +61,7 @@ FindCrossingTriangles(const TriangleTree & tree,
 
 /** For each point of a surface, 1 if it is certain that no two triangles at it meet elsewhere than at corners and sides
  * they share, else 0. */
-std::vector<std::uint8_t>
+BulkVector<std::uint8_t>
 FindUnfoldedPoints(const TriangleSurface & surface, const TrianglesOfPoints & fans);
 
 /** The triangles of a grid that cross others or are duplicates, ascending: half the time of the same with a tree. */

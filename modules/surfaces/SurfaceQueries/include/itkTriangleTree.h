@@ -53,7 +53,7 @@ public:
   explicit TriangleTree(const TriangleSurface & surface);
 
   /** A tree of some of the surface's triangles. */
-  TriangleTree(const TriangleSurface & surface, std::vector<std::uint32_t> triangles);
+  TriangleTree(const TriangleSurface & surface, const std::vector<std::uint32_t> & triangles);
 
   /** Must be called when points of a triangle have moved, with its boxes before and after that: enlarges the boxes of
    * the tree that held the triangle, and a few around it. Queries are fast as long as the points are about where they
@@ -277,12 +277,15 @@ private:
   class Builder;
 
   void
+  Build(BulkVector<std::uint32_t> triangles);
+
+  void
   ImproveClosestPoint(const PositionType & position, std::uint32_t triangle, ClosestPoint & closest) const;
 
   TriangleSurface::ConstPointer m_Surface;
-  std::vector<std::uint32_t> m_Order;    ///< ids of the triangles, leaf by leaf
-  std::vector<std::uint32_t> m_LeafEnds; ///< for each leaf, how many triangles are in it and those before
-  std::vector<StoredNode, BulkAllocator<StoredNode>> m_Nodes;
+  BulkVector<std::uint32_t> m_Order;    ///< ids of the triangles, leaf by leaf
+  BulkVector<std::uint32_t> m_LeafEnds; ///< for each leaf, how many triangles are in it and those before
+  BulkVector<StoredNode> m_Nodes;
 };
 
 } // namespace itk

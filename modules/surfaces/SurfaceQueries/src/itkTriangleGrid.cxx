@@ -20,7 +20,7 @@ constexpr float LeastStep = -32500.0f;
 /** Sorts the triangles into the cells: counts, sums, and entries filled in from the end of each cell. */
 TriangleGrid::TriangleGrid(const TriangleSurface & surface,
                            const TriangleSizes & sizes,
-                           const std::vector<std::uint8_t> & areUnfolded)
+                           const BulkVector<std::uint8_t> & areUnfolded)
   : m_Surface(&surface)
   , m_Cells(sizes, GridCellOverMean)
 {

@@ -50,15 +50,15 @@ struct PlaneFrame
 struct TrianglesOfPlanes
 {
   std::vector<std::uint64_t> begin;
-  std::vector<std::uint32_t> triangles;
+  BulkVector<std::uint32_t> triangles;
 };
 
 TrianglesOfPlanes
 FindTrianglesOfPlanes(const TriangleSurface & surface,
-                      const std::vector<double> & pointHeights,
+                      const BulkVector<double> & pointHeights,
                       const std::vector<double> & planeHeights)
 {
-  std::vector<std::uint32_t> planesBelow(pointHeights.size()); // or at the point
+  BulkVector<std::uint32_t> planesBelow(pointHeights.size()); // or at the point
   rhombic::ForEachInBlocks(pointHeights.size(), PointsOfBlock, [&](std::size_t point) {
     const auto above = std::upper_bound(planeHeights.begin(), planeHeights.end(), pointHeights[point]);
     planesBelow[point] = static_cast<std::uint32_t>(above - planeHeights.begin());
@@ -106,7 +106,7 @@ public:
   PlaneCut(const TriangleSurface & surface,
            const PlaneFrame & frame,
            const Point<double, 3> & origin,
-           const std::vector<double> & pointHeights,
+           const BulkVector<double> & pointHeights,
            double height)
     : m_Surface(surface)
     , m_Frame(frame)
@@ -154,7 +154,7 @@ private:
   const PlaneFrame & m_Frame;
   double m_Column; ///< column of the plane's origin
   double m_Row;    ///< row of the plane's origin
-  const std::vector<double> & m_PointHeights;
+  const BulkVector<double> & m_PointHeights;
   double m_Height;
 };
 
@@ -220,7 +220,7 @@ FindTriangleSurfaceInteriorSamples(const TriangleSurface & surface,
     return;
   }
   const PlaneFrame frame(planes);
-  std::vector<double> pointHeights(surface.GetNumberOfPoints());
+  BulkVector<double> pointHeights(surface.GetNumberOfPoints());
   rhombic::ForEachInBlocks(pointHeights.size(), PointsOfBlock, [&](std::size_t point) {
     pointHeights[point] = frame.normal * ToVector(surface.GetPoints()[point]);
   });

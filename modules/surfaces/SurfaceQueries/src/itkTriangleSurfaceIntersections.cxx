@@ -19,6 +19,7 @@ namespace
 using Contact = TriangleContact;
 using Box = TriangleTree::Box;
 using TriangleType = TriangleSurface::TriangleType;
+using Flags = BulkVector<std::uint8_t>; ///< of points
 
 constexpr std::size_t TrianglesOfPart = 64;
 constexpr std::size_t TrianglesOfSample = 32; // parts where not all are tested
@@ -43,7 +44,7 @@ class ContactSearch
 public:
   /** \param areUnfolded see FindUnfoldedPoints()
    *  \param sizeOfPart triangles at most */
-  ContactSearch(const TriangleTree & tree, std::vector<std::uint8_t> areUnfolded, std::size_t sizeOfPart)
+  ContactSearch(const TriangleTree & tree, Flags areUnfolded, std::size_t sizeOfPart)
     : m_Tree(tree)
     , m_Parts(tree.FindSubtrees(sizeOfPart))
     , m_AreUnfolded(std::move(areUnfolded))
@@ -186,13 +187,13 @@ private:
 
   const TriangleTree & m_Tree;
   std::vector<std::size_t> m_Parts; ///< the first leaf of each, and the end of the last
-  std::vector<std::uint8_t> m_AreUnfolded;
+  Flags m_AreUnfolded;
 };
 
 /** The triangles of a tree that cross others of it, or are in another contact of at least that kind, ascending. */
 std::vector<std::uint32_t>
 FindAllCrossing(const TriangleTree & tree,
-                std::vector<std::uint8_t> areUnfolded,
+                Flags areUnfolded,
                 Contact least,
                 rhombic::StagedProgress & progress,
                 double stageEnd)
@@ -219,7 +220,7 @@ FindAllCrossing(const TriangleTree & tree,
 std::vector<std::uint32_t>
 FindCrossingAtEdges(const TriangleSurface & surface,
                     const TrianglesOfPoints & fans,
-                    const std::vector<std::uint8_t> & areUnfolded,
+                    const Flags & areUnfolded,
                     double longest)
 {
   const auto & points = surface.GetPoints();
@@ -261,10 +262,10 @@ FindCrossingAtEdges(const TriangleSurface & surface,
 
 } // namespace
 
-std::vector<std::uint8_t>
+Flags
 FindUnfoldedPoints(const TriangleSurface & surface, const TrianglesOfPoints & fans)
 {
-  std::vector<std::uint8_t> areUnfolded(surface.GetNumberOfPoints());
+  Flags areUnfolded(surface.GetNumberOfPoints());
   rhombic::ForEachInBlocks(areUnfolded.size(), BlockOfPoints, [&](std::size_t point) {
     areUnfolded[point] = IsUnfoldedPoint(surface, fans, static_cast<std::uint32_t>(point));
   });
@@ -312,7 +313,7 @@ FindCrossingTriangles(const TriangleTree & tree,
                       rhombic::StagedProgress * progress,
                       double stageEnd)
 {
-  std::vector<std::uint8_t> areUnfolded(tree.GetSurface().GetNumberOfPoints()); // of corners of the tree's triangles
+  Flags areUnfolded(tree.GetSurface().GetNumberOfPoints()); // of corners of the tree's triangles
   const bool isWhole = tree.GetNumberOfPlacedTriangles() == tree.GetSurface().GetNumberOfTriangles();
   std::fill(areUnfolded.begin(), areUnfolded.end(), std::uint8_t{ isWhole });
   for (std::size_t leaf = 0; leaf < tree.GetNumberOfLeaves() && !isWhole; ++leaf)
@@ -347,7 +348,7 @@ FindCrossingTriangles(const TriangleTree & tree,
     corners.insert(corners.end(), triangle.begin(), triangle.end());
   }
   SortUnique(corners);
-  std::vector<std::uint8_t> areUnfolded(surface.GetNumberOfPoints()); // none but corners of candidates
+  Flags areUnfolded(surface.GetNumberOfPoints(), 0); // none but corners of candidates
   rhombic::ForEachInBlocks(corners.size(), BlockOfPoints, [&](std::size_t n) {
     areUnfolded[corners[n]] = IsUnfoldedPoint(surface, fans, corners[n]);
   });
@@ -437,7 +438,7 @@ FindCrossingTriangles(const TriangleSurface & surface,
                       const TrianglesOfPoints & fans,
                       const CrossingCandidates & candidates)
 {
-  std::vector<std::uint8_t> areUnfolded = FindUnfoldedPoints(surface, fans);
+  Flags areUnfolded = FindUnfoldedPoints(surface, fans);
   std::vector<std::uint32_t> found = FindCrossingAtEdges(surface, fans, areUnfolded, candidates.longestEdge);
   rhombic::StagedProgress silent({});
   const auto listed = FindAllCrossing(

@@ -29,7 +29,7 @@ struct CurvePlace
     return cell != other.cell ? cell < other.cell : triangle < other.triangle;
   }
 };
-using CurvePlaces = std::vector<CurvePlace, BulkAllocator<CurvePlace>>;
+using CurvePlaces = BulkVector<CurvePlace>;
 
 constexpr unsigned int BitsOfAxis = 21; // of a cell's number along one axis
 constexpr unsigned int BitsOfBucket = 15;
@@ -60,7 +60,7 @@ CentreOf(const TriangleSurface & surface, std::uint32_t triangle)
 
 /** The box around the centres of triangles. */
 Box
-FindBox(const TriangleSurface & surface, const std::vector<std::uint32_t> & triangles)
+FindBox(const TriangleSurface & surface, const BulkVector<std::uint32_t> & triangles)
 {
   std::vector<Box> ofBlocks((triangles.size() + TrianglesOfBlock - 1) / TrianglesOfBlock);
   rhombic::ForEachBlock(triangles.size(), TrianglesOfBlock, [&](std::size_t begin, std::size_t end) {
@@ -81,7 +81,7 @@ FindBox(const TriangleSurface & surface, const std::vector<std::uint32_t> & tria
 }
 
 CurvePlaces
-FindPlaces(const TriangleSurface & surface, const std::vector<std::uint32_t> & triangles)
+FindPlaces(const TriangleSurface & surface, const BulkVector<std::uint32_t> & triangles)
 {
   const Box box = FindBox(surface, triangles);
   double longest = 0.0;
@@ -116,7 +116,8 @@ void
 SortByBuckets(CurvePlaces & places)
 {
   const std::size_t blocks = (places.size() + TrianglesOfBlock - 1) / TrianglesOfBlock;
-  std::vector<std::array<std::uint32_t, NumberOfBuckets>> next(blocks); // counts, then the place of the next triangle
+  using Counts = std::array<std::uint32_t, NumberOfBuckets>;
+  BulkVector<Counts> next(blocks, Counts()); // counts, then the place of the next triangle
   rhombic::ForEachBlock(places.size(), TrianglesOfBlock, [&](std::size_t begin, std::size_t end) {
     auto & counts = next[begin / TrianglesOfBlock];
     for (std::size_t n = begin; n < end; ++n)
@@ -157,7 +158,7 @@ SortByBuckets(CurvePlaces & places)
  * Nearly linear time, on several threads with the same result for any number of them; memory 16 bytes per triangle more
  * than the result. */
 CurvePlaces
-SortAlongCurve(const TriangleSurface & surface, const std::vector<std::uint32_t> & triangles)
+SortAlongCurve(const TriangleSurface & surface, const BulkVector<std::uint32_t> & triangles)
 {
   if (triangles.empty())
   {
@@ -218,10 +219,10 @@ SideOfShifted(const PointType & a, const PointType & b, const PointType & c, con
   return side;
 }
 
-std::vector<std::uint32_t>
+BulkVector<std::uint32_t>
 AllTriangles(const TriangleSurface & surface)
 {
-  std::vector<std::uint32_t> triangles(surface.GetNumberOfTriangles());
+  BulkVector<std::uint32_t> triangles(surface.GetNumberOfTriangles());
   std::iota(triangles.begin(), triangles.end(), 0);
   return triangles;
 }
@@ -278,8 +279,8 @@ FindExitThrough(const CornersType & corners, const PositionType & position, cons
 } // namespace
 
 /** \class TriangleTree::Builder
- * \brief Builds the nodes of a tree from triangles along a curve: parts of the curve that are whole subtrees on several
- * threads, then the nodes above them. */
+ * \brief Builds the nodes of a tree from triangles along a curve: counts leaves, so that all nodes have their places,
+ * then fills parts of the curve that are whole subtrees on several threads, and the nodes above them. */
 class TriangleTree::Builder
 {
 public:
@@ -293,33 +294,45 @@ public:
   {
     this->Cut(0, m_Places.size());
     rhombic::ForEachInBlocks(m_Parts.size(), 1, [this](std::size_t n) {
-      Part & part = m_Parts[n];
-      part.nodes.reserve(part.end - part.begin);
-      part.leafEnds.reserve((part.end - part.begin) / 2);
-      this->AppendNodes(part.begin, part.end, part);
+      m_Parts[n].leaves = this->CountLeaves(m_Parts[n].begin, m_Parts[n].end);
     });
-    CurvePlaces().swap(m_Places); // their memory is needed for the joined nodes
-    std::size_t leaves = 0;
-    for (const Part & part : m_Parts)
+    Place place;
+    this->PlaceParts(place);
+    m_Tree.m_LeafEnds.resize(place.leaf);
+    m_Tree.m_Nodes.resize(place.node);
+    rhombic::ForEachInBlocks(m_Parts.size(), 1, [this](std::size_t n) {
+      Place next = m_Parts[n].place;
+      this->FillNodes(m_Parts[n].begin, m_Parts[n].end, next);
+    });
+    for (auto above = m_Above.rbegin(); above != m_Above.rend(); ++above) // children before their parents
     {
-      leaves += part.leafEnds.size();
+      this->JoinChildren(above->node, above->leavesOfLeft);
     }
-    m_Tree.m_LeafEnds.reserve(leaves);
-    m_Tree.m_Nodes.reserve(2 * leaves - 1);
-    auto nextNode = m_AreParts.cbegin();
-    auto nextPart = m_Parts.begin();
-    this->Join(nextNode, nextPart);
   }
 
 private:
   static constexpr std::size_t MostOfPart = 8192;
 
+  /** Where nodes are put. */
+  struct Place
+  {
+    std::size_t node = 0;
+    std::size_t leaf = 0;
+  };
+
   struct Part
   {
     std::size_t begin; ///< triangles along the curve
     std::size_t end;
-    std::vector<StoredNode> nodes{};
-    std::vector<std::uint32_t> leafEnds{};
+    std::uint32_t leaves = 0;
+    Place place{};
+  };
+
+  /** A node above parts. */
+  struct NodeAbove
+  {
+    std::size_t node;
+    std::uint32_t leavesOfLeft;
   };
 
   /** Where the highest bit changes in which the cells of places [begin, end) differ. */
@@ -352,64 +365,93 @@ private:
     this->Cut(middle, end);
   }
 
-  /** Appends the node of places [begin, end) and all below it. Returns its number of leaves. */
   std::uint32_t
-  AppendNodes(std::size_t begin, std::size_t end, Part & part) const
+  CountLeaves(std::size_t begin, std::size_t end) const
   {
-    const std::size_t id = part.nodes.size();
-    part.nodes.push_back({ m_Tree.GetTriangleBox(m_Places[begin].triangle), 0 });
     if (end - begin <= LeafSize)
     {
-      for (std::size_t n = begin + 1; n < end; ++n)
-      {
-        part.nodes[id].box.Add(m_Tree.GetTriangleBox(m_Places[n].triangle));
-      }
-      part.leafEnds.push_back(static_cast<std::uint32_t>(end));
       return 1;
     }
     const std::size_t middle = this->FindMiddle(begin, end);
-    const std::uint32_t left = this->AppendNodes(begin, middle, part);
-    const std::uint32_t right = this->AppendNodes(middle, end, part);
-    part.nodes[id] = { part.nodes[id + 1].box, left };
-    part.nodes[id].box.Add(part.nodes[id + 2 * left].box);
+    return this->CountLeaves(begin, middle) + this->CountLeaves(middle, end);
+  }
+
+  /** Puts the next node and all below it at \a place, which moves behind them. Returns its number of leaves. */
+  std::uint32_t
+  PlaceParts(Place & place)
+  {
+    if (m_AreParts[m_NextNode++])
+    {
+      Part & part = m_Parts[m_NextPart++];
+      part.place = place;
+      place.node += 2 * std::size_t{ part.leaves } - 1;
+      place.leaf += part.leaves;
+      return part.leaves;
+    }
+    const std::size_t above = m_Above.size();
+    m_Above.push_back({ place.node++, 0 });
+    const std::uint32_t left = this->PlaceParts(place);
+    m_Above[above].leavesOfLeft = left;
+    return left + this->PlaceParts(place);
+  }
+
+  /** Fills the node of places [begin, end) and all below it. Returns its number of leaves. */
+  std::uint32_t
+  FillNodes(std::size_t begin, std::size_t end, Place & place) const
+  {
+    const std::size_t id = place.node++;
+    if (end - begin <= LeafSize)
+    {
+      Box box = m_Tree.GetTriangleBox(m_Places[begin].triangle);
+      for (std::size_t n = begin + 1; n < end; ++n)
+      {
+        box.Add(m_Tree.GetTriangleBox(m_Places[n].triangle));
+      }
+      m_Tree.m_Nodes[id] = { box, 0 };
+      m_Tree.m_LeafEnds[place.leaf++] = static_cast<std::uint32_t>(end);
+      return 1;
+    }
+    const std::size_t middle = this->FindMiddle(begin, end);
+    const std::uint32_t left = this->FillNodes(begin, middle, place);
+    const std::uint32_t right = this->FillNodes(middle, end, place);
+    this->JoinChildren(id, left);
     return left + right;
   }
 
-  /** Appends a node and all below it to the tree. Returns its number of leaves. */
-  std::uint32_t
-  Join(std::vector<bool>::const_iterator & nextNode, std::vector<Part>::iterator & nextPart) const
+  void
+  JoinChildren(std::size_t id, std::uint32_t leavesOfLeft) const
   {
     auto & nodes = m_Tree.m_Nodes;
-    if (*nextNode++)
-    {
-      const Part part = std::move(*nextPart++); // its memory is free again when it is copied
-      nodes.insert(nodes.end(), part.nodes.begin(), part.nodes.end());
-      m_Tree.m_LeafEnds.insert(m_Tree.m_LeafEnds.end(), part.leafEnds.begin(), part.leafEnds.end());
-      return static_cast<std::uint32_t>(part.leafEnds.size());
-    }
-    const std::size_t id = nodes.size();
-    nodes.emplace_back();
-    const std::uint32_t left = this->Join(nextNode, nextPart);
-    const std::uint32_t right = this->Join(nextNode, nextPart);
-    nodes[id] = { nodes[id + 1].box, left };
-    nodes[id].box.Add(nodes[id + 2 * left].box);
-    return left + right;
+    nodes[id] = { nodes[id + 1].box, leavesOfLeft };
+    nodes[id].box.Add(nodes[id + 2 * std::size_t{ leavesOfLeft }].box);
   }
 
   TriangleTree & m_Tree;
   CurvePlaces m_Places;
   std::vector<Part> m_Parts;
   std::vector<bool> m_AreParts; ///< whether nodes are parts: the parts and all nodes above them, in the tree's order
+  std::vector<NodeAbove> m_Above;
+  std::size_t m_NextNode = 0;
+  std::size_t m_NextPart = 0;
 };
 
 TriangleTree::TriangleTree(const TriangleSurface & surface)
-  : TriangleTree(surface, AllTriangles(surface))
-{}
-
-TriangleTree::TriangleTree(const TriangleSurface & surface, std::vector<std::uint32_t> triangles)
   : m_Surface(&surface)
-  , m_Order(std::move(triangles))
 {
+  this->Build(AllTriangles(surface));
+}
+
+TriangleTree::TriangleTree(const TriangleSurface & surface, const std::vector<std::uint32_t> & triangles)
+  : m_Surface(&surface)
+{
+  this->Build({ triangles.begin(), triangles.end() });
+}
+
+void
+TriangleTree::Build(BulkVector<std::uint32_t> triangles)
+{
+  const TriangleSurface & surface = *m_Surface;
+  m_Order = std::move(triangles);
   const auto isPlaced = [&](std::uint32_t triangle) {
     const auto & [a, b, c] = surface.GetTriangles()[triangle];
     return IsFinite(surface.GetPoints()[a]) && IsFinite(surface.GetPoints()[b]) && IsFinite(surface.GetPoints()[c]);

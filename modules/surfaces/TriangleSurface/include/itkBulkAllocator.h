@@ -1,11 +1,12 @@
 #ifndef itkBulkAllocator_h
 #define itkBulkAllocator_h
 
-#include "itkRecyclingMemory.h"
+#include "rhombicBulkMemory.h"
 
-#include <cstdlib>
+#include <cstddef>
 #include <new>
 #include <utility>
+#include <vector>
 
 namespace itk
 {
@@ -14,8 +15,7 @@ namespace itk
  * \brief Allocator for arrays of millions of plain elements that several threads fill.
  *
  * Growing a container leaves new elements uninitialised, so that the thread that fills a page is the first to touch it.
- * Large blocks ask the system for huge pages: a mesh of 300 MB costs 150 page faults instead of 75,000. Throws
- * std::bad_alloc.
+ * Large blocks are those of rhombic::AllocateBulk(). Throws as that.
  *
  * \ingroup TriangleSurface
  */
@@ -39,30 +39,13 @@ public:
       throw std::bad_array_new_length();
     }
     const std::size_t bytes = count * sizeof(T);
-    if (bytes < SmallestHugeBlock)
-    {
-      return static_cast<T *>(::operator new(bytes));
-    }
-    void * const block = std::aligned_alloc(HugePage, (bytes + HugePage - 1) / HugePage * HugePage);
-    if (block == nullptr)
-    {
-      throw std::bad_alloc();
-    }
-    AdviseHugePages(block, bytes);
-    return static_cast<T *>(block);
+    return static_cast<T *>(bytes < SmallestBulk ? ::operator new(bytes) : rhombic::AllocateBulk(bytes));
   }
 
   void
   deallocate(T * block, std::size_t count) noexcept
   {
-    if (count * sizeof(T) < SmallestHugeBlock)
-    {
-      ::operator delete(block);
-    }
-    else
-    {
-      std::free(block);
-    }
+    count * sizeof(T) < SmallestBulk ? ::operator delete(block) : rhombic::FreeBulk(block);
   }
 
   template <typename U, typename... TArguments>
@@ -91,9 +74,11 @@ public:
   }
 
 private:
-  static constexpr std::size_t HugePage = std::size_t{ 1 } << 21;
-  static constexpr std::size_t SmallestHugeBlock = 2 * HugePage;
+  static constexpr std::size_t SmallestBulk = std::size_t{ 1 } << 22;
 };
+
+template <typename T>
+using BulkVector = std::vector<T, BulkAllocator<T>>;
 
 } // namespace itk
 

@@ -48,9 +48,9 @@ public:
   using PointType = std::array<float, 3>;
   using NormalType = std::array<float, 3>;
   using TriangleType = std::array<std::uint32_t, 3>;
-  using PointsContainer = std::vector<PointType, BulkAllocator<PointType>>;
-  using NormalsContainer = std::vector<NormalType, BulkAllocator<NormalType>>;
-  using TrianglesContainer = std::vector<TriangleType, BulkAllocator<TriangleType>>;
+  using PointsContainer = BulkVector<PointType>;
+  using NormalsContainer = BulkVector<NormalType>;
+  using TrianglesContainer = BulkVector<TriangleType>;
 
   /** Call Modified() after changing an array through a non-const accessor. */
   PointsContainer &

@@ -17,7 +17,7 @@ struct TriangleSurfaceComponents
   static constexpr std::uint32_t None = std::numeric_limits<std::uint32_t>::max();
 
   std::uint32_t count = 0;
-  std::vector<std::uint32_t> ofPoint; ///< 0 to count - 1, numbered by each component's first point, or None
+  BulkVector<std::uint32_t> ofPoint; ///< 0 to count - 1, numbered by each component's first point, or None
 };
 
 /** Triangles that share a point are connected. Time nearly linear; memory 4 bytes per point, 8 while it runs. */

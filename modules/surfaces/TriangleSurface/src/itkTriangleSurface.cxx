@@ -55,7 +55,7 @@ TriangleSurface::RemoveUnusedPoints()
   PointsContainer & points = this->GetPoints();
   NormalsContainer & normals = this->GetNormals();
   TrianglesContainer & triangles = this->GetTriangles();
-  std::vector<std::uint32_t> newId(points.size(), unused);
+  BulkVector<std::uint32_t> newId(points.size(), unused);
   for (const TriangleType & triangle : triangles)
   {
     for (const std::uint32_t point : triangle)

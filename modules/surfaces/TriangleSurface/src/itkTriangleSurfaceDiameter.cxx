@@ -26,7 +26,7 @@ SquaredDistanceOfPoints(const PointType & a, const PointType & b)
 class PointBoxes
 {
 public:
-  explicit PointBoxes(std::vector<PointType> points)
+  explicit PointBoxes(TriangleSurface::PointsContainer points)
     : m_Points(std::move(points))
   {
     std::size_t leaves = 1;
@@ -149,8 +149,8 @@ private:
     }
   }
 
-  std::vector<PointType> m_Points;
-  std::vector<Box> m_Boxes;
+  TriangleSurface::PointsContainer m_Points;
+  BulkVector<Box> m_Boxes;
   double m_Largest = 0.0; ///< squared distance of the best pair so far
 };
 
@@ -164,14 +164,14 @@ FindFarthest(const TriangleSurface::PointsContainer & points, const PointType & 
 
 /** The points that may be ends of a distance of more than \a length: the others are nearer than that to all corners of
  * the box around the points. */
-std::vector<PointType>
+TriangleSurface::PointsContainer
 FindEnds(const TriangleSurface::PointsContainer & points, double length)
 {
   PointBox box{ points.front(), points.front() };
   std::for_each(points.begin(), points.end(), [&box](const PointType & point) { box.Add(point); });
   constexpr double rounding = 1e-9; // generous
   const double least = length * length * (1.0 - rounding);
-  std::vector<PointType> ends;
+  TriangleSurface::PointsContainer ends;
   std::copy_if(points.begin(), points.end(), std::back_inserter(ends), [&](const PointType & point) {
     double farthest = 0.0; // squared
     for (unsigned int axis = 0; axis < 3; ++axis)

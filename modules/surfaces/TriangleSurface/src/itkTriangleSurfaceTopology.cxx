@@ -45,7 +45,7 @@ public:
   }
 
 private:
-  std::vector<std::uint32_t> m_Parent;
+  BulkVector<std::uint32_t> m_Parent;
 };
 
 using PointId = std::uint32_t;
@@ -92,8 +92,8 @@ struct Link
 /** The links of all points, one point after the other. */
 struct PointLinks
 {
-  std::vector<std::uint64_t> begin; ///< index of each point's first link, and the end of the last
-  std::vector<Link, BulkAllocator<Link>> links;
+  BulkVector<std::uint64_t> begin; ///< index of each point's first link, and the end of the last
+  BulkVector<Link> links;
 };
 
 PointLinks

@@ -29,7 +29,7 @@ public:
   /** \param areUnfolded see FindUnfoldedPoints() */
   TriangleGrid(const TriangleSurface & surface,
                const TriangleSizes & sizes,
-               const std::vector<std::uint8_t> & areUnfolded);
+               const BulkVector<std::uint8_t> & areUnfolded);
 
   const TriangleSurface &
   GetSurface() const

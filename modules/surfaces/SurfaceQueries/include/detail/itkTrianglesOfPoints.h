@@ -96,8 +96,8 @@ public:
 
 private:
   const TriangleSurface::TrianglesContainer & m_Triangles;
-  std::vector<std::size_t> m_Begin; ///< index of each point's first id, and the end of the last
-  std::vector<std::uint32_t, BulkAllocator<std::uint32_t>> m_Ids;
+  BulkVector<std::size_t> m_Begin; ///< index of each point's first id, and the end of the last
+  BulkVector<std::uint32_t> m_Ids;
 };
 
 } // namespace itk
