@@ -157,6 +157,10 @@ ScanOptions::SourceTable()
       DefaultsTo("RHOMBIC_MAX_MEMORY"),
       InBytes,
       OfKind(SettingKind::Run) },
+    { "--temporary",
+      &ScanOptions::temporaryFolder,
+      "folder on a disk for temporary files of what does not fit into --max-memory (default: TMPDIR, else /tmp)",
+      OfKind(SettingKind::Run) },
     { "--analyze", &ScanOptions::acceptsAnalyze, "read Analyze 7.5 files, in which left and right are not defined" },
     { "--follow-links", &ScanOptions::followsLinks, "follow symbolic links in folders" },
   };
@@ -230,6 +234,7 @@ ScanOptions::GetSource() const
   source.read.onUneven = source.read.onTilted;
   source.read.onGap = ParsePolicy("--on-gap", onGap, "interpolate");
   source.read.maximumMemory = maximumMemory;
+  source.read.temporaryFolder = temporaryFolder;
   source.read.acceptsAnalyze = acceptsAnalyze;
   source.read.followsLinks = followsLinks;
   source.lattice.density = density;

@@ -27,6 +27,7 @@ struct ScanOptions
   std::string onIrregular = "resample";
   std::string onGap = "error";
   std::uint64_t maximumMemory = 0;
+  std::string temporaryFolder;
   bool acceptsAnalyze = false;
   bool followsLinks = false;
   double density = itk::FCCLattice::DefaultDensity;

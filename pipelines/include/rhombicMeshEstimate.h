@@ -16,7 +16,8 @@ namespace rhombic
 struct MeshEstimate
 {
   double triangles = 0.0;
-  SurfaceBytes bytes;
+  SurfaceBytes bytes;                ///< in memory
+  std::uintmax_t temporaryBytes = 0; ///< in temporary files, see PutIntoTemporaryFiles()
 };
 
 /** Pairs of neighbouring slices at equal distances, from the first slice of a scan to the last. */
@@ -42,6 +43,10 @@ EstimateMesh(const SampledSlices & sample,
              itk::FCCIsosurfaceMode mode,
              const LatticeSettings & lattice,
              double mostTriangles = 0.0);
+
+/** Takes surfaces out of the memory but for what can't be in temporary files. */
+void
+PutIntoTemporaryFiles(MeshEstimate & mesh);
 
 /** Throws Failure(Memory) for surfaces to draw that the memory (all that is free, without a limit) can't hold. Does
  * nothing for a denoised scan, whose surfaces may be far smaller. */

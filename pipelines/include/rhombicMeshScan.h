@@ -1,6 +1,7 @@
 #ifndef rhombicMeshScan_h
 #define rhombicMeshScan_h
 
+#include "rhombicBulkMemory.h"
 #include "rhombicColourBy.h"
 #include "rhombicEvents.h"
 #include "rhombicScanSource.h"
@@ -39,11 +40,17 @@ constexpr char NamePlaceholder[] = "{name}";
 std::vector<std::filesystem::path>
 CheckMeshScan(const MeshScanSettings & settings);
 
-/** Throws Failure(Memory) for surfaces that the memory (all that is free, without a limit) or the file can't hold.
- * MeshScan() calls it before its work. Does nothing for a denoised scan, whose surfaces may be far smaller; surfaces of
- * up to 4 MiB are never too large for the memory. */
+/** For surfaces that the memory (all that is free, without a limit) can't hold: puts them into temporary files, but
+ * throws Failure(Memory) where there is no room, or where settings need them in memory: simplification, smoothing,
+ * parts, colours and thickness. Throws it for surfaces that the file can't hold, too. MeshScan() calls it before its
+ * work. A denoised scan, whose surfaces may be far smaller, is not refused; surfaces of up to 4 MiB are never too large
+ * for the memory. Bytes do not depend on where surfaces are. */
 void
-CheckMesh(const MeshEstimate & mesh, const MeshScanSettings & settings);
+CheckMesh(MeshEstimate & mesh, const MeshScanSettings & settings);
+
+/** Temporary files for surfaces. */
+TemporaryStore
+SurfaceStore(const MeshEstimate & mesh, const MeshScanSettings & settings);
 
 /** Writes surfaces of a scan; returns all files. Measures and the distance from the scan's isosurface are taken
  * while a file is written, and hold for it, as it is read back and compared; the audit is that of the surface read

@@ -33,9 +33,9 @@ struct ScanSource
   double mostTriangles = 0.0; ///< of isosurfaces that keep all: others are only looked at (SurfaceViewing); 0: all do
   /** Called with the facts of the headers, before the voxels of a scan are read; may be empty, and may throw. */
   std::function<void(const Scan & scan)> check;
-  /** Called with what isosurfaces of a scan will be, before its lattice is made; may be empty, and may throw. Called if
-   * the source \a streams. */
-  std::function<void(const MeshEstimate & mesh)> checkMesh;
+  /** Called with what isosurfaces of a scan will be, before its lattice is made; may be empty, may throw, and may put
+   * them into temporary files. Called if the source \a streams. */
+  std::function<void(MeshEstimate & mesh)> checkMesh;
 
   bool isHashed = false; ///< whether reports hold a digest of the files that were read
 

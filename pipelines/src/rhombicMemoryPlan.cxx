@@ -63,7 +63,7 @@ OpenSource(const ScanSource & source)
 }
 
 std::string
-DescribePlace(const UnreadSource & unread)
+DescribePlace(const UnreadSource & unread, const ScanReadOptions & options)
 {
   const std::string bytes = DescribeBytes(unread.CountBytes());
   switch (unread.place)
@@ -71,7 +71,8 @@ DescribePlace(const UnreadSource & unread)
     case VoxelPlace::File:
       return bytes + ", which stay in their file and are read where they are needed";
     case VoxelPlace::TemporaryFile:
-      return bytes + ", which are put into a temporary file in " + std::filesystem::temp_directory_path().string();
+      return bytes + ", which are put into a temporary file in " +
+             TemporaryStore{ options.temporaryFolder, {} }.FindFolder().string();
     default:
       return bytes + " in memory";
   }
@@ -111,7 +112,10 @@ ReadSlicePairs(const UnreadScan & file, const std::vector<std::size_t> & pairs)
 
 /** The lattice of a source, planned. */
 LatticePlan
-PlanLattice(const UnreadSource & unread, const LatticeSettings & settings, LatticeStream stream, const Events & events)
+PlanLattice(const UnreadSource & unread,
+            const LatticeSettings & settings,
+            LatticeStream & stream,
+            const Events & events)
 {
   stream.scanBytes = settings.maximumMemory > 0 ? unread.CountInMemory() : 0;
   stream.onlyPlans = true;
@@ -189,7 +193,7 @@ struct SurfacePlanning
   const ScanSource & source;
   const SurfaceSelection & surfaces;
   const fs::path & output;
-  std::function<void(const MeshEstimate & mesh)> check;
+  std::function<void(MeshEstimate & mesh)> check;
   bool isMeasured; ///< whether the volume that isosurfaces enclose is estimated from the lattice
 };
 
@@ -246,15 +250,17 @@ PlanSurfaces(const SurfacePlanning & planning, const Events & events)
     mesh =
       EstimateMesh({ slices, pairs, size[2] }, known, planning.surfaces.mode, source.lattice, source.mostTriangles);
   }
-  std::string text = "voxels        " + DescribePlace(unread) + '\n';
+  std::string text = "voxels        " + DescribePlace(unread, source.read) + '\n';
   std::uintmax_t volumes = unread.CountInMemory();
   LatticePlan plan;
   if (!requests.empty())
   {
     LatticeStream stream;
-    stream.surfaces = mesh.bytes;
     stream.mayBeInSlabs = MayBeInSlabs(requests);
-    stream.check = [&] { planning.check(mesh); }; // nothing is refused of a mesh that is not known
+    stream.check = [&] {
+      planning.check(mesh); // nothing is refused of a mesh that is not known
+      stream.surfaces = mesh.bytes;
+    };
     plan = PlanLattice(unread, source.lattice, stream, events);
     volumes += plan.peak - plan.scanBytes;
     text += "lattice       " + DescribeLattice(plan, CountPasses(planning)) + '\n';
@@ -265,6 +271,10 @@ PlanSurfaces(const SurfacePlanning & planning, const Events & events)
     text += "surfaces      some " + FormatNumber(mesh.triangles / 1e6, 2) + " million triangles" +
             (bytes > 0.0 ? ", " + DescribeBytes(static_cast<std::uintmax_t>(bytes)) + " in " + planning.output.string()
                          : "") +
+            (mesh.temporaryBytes > 0
+               ? "; while they are made, " + DescribeBytes(mesh.temporaryBytes) + " in temporary files in " +
+                   TemporaryStore{ source.read.temporaryFolder, {} }.FindFolder().string()
+               : "") +
             '\n';
     text +=
       "time          " + DescribeTime(EstimateSeconds(unread, plan, CountPasses(planning), mesh.triangles)) + '\n';
@@ -284,7 +294,7 @@ std::string
 PlanMeshScan(const MeshScanSettings & settings, const Events & events)
 {
   CheckOutputs(CheckMeshScan(settings), settings.source, settings.surfaces, InputsOf(settings.colourBy));
-  const auto check = [&settings](const MeshEstimate & mesh) { CheckMesh(mesh, settings); };
+  const auto check = [&settings](MeshEstimate & mesh) { CheckMesh(mesh, settings); };
   return PlanSurfaces({ settings.source, settings.surfaces, settings.mesh, check, true }, events);
 }
 
@@ -307,9 +317,11 @@ PlanResampleScan(const ResampleScanSettings & settings, const Events & events)
     return PlanLatticeVolume(settings.source, settings.volume);
   }
   const UnreadSource unread = OpenSource(settings.source);
-  const LatticePlan plan = PlanLattice(unread, settings.source.lattice, {}, events);
-  return "voxels        " + DescribePlace(unread) + "\nlattice       " + DescribeLattice(plan, 1) + "\ntime          " +
-         DescribeTime(EstimateSeconds(unread, plan, 1.0, 0.0)) + "\nmemory        " +
+  LatticeStream stream;
+  const LatticePlan plan = PlanLattice(unread, settings.source.lattice, stream, events);
+  return "voxels        " + DescribePlace(unread, settings.source.read) + "\nlattice       " +
+         DescribeLattice(plan, 1) + "\ntime          " + DescribeTime(EstimateSeconds(unread, plan, 1.0, 0.0)) +
+         "\nmemory        " +
          DescribeMemory(unread.CountInMemory() + plan.peak - plan.scanBytes, settings.source.read.maximumMemory) +
          '\n' + DescribeUnwritten(settings.volume);
 }

@@ -394,6 +394,18 @@ AdviseCoarser(const LatticeSettings & lattice, double share)
   return "use " + coarser + "another threshold or a part of the scan";
 }
 
+/** Whether all arrays of the surfaces' size may be in temporary files. */
+bool
+MayBeInTemporaryFiles(const MeshScanSettings & settings)
+{
+  const auto & requests = settings.surfaces.requests;
+  return MayBeInSlabs(requests) && !settings.colourBy && settings.minimumThickness == 0.0 &&
+         std::all_of(requests.begin(), requests.end(), [&](const SurfaceRequest & request) {
+           const SurfaceFinish finish = CombineFinish(request.finish, settings.finish);
+           return !finish.Simplifies() && finish.smoothing.IsNothing();
+         });
+}
+
 /** "some 5.12 million triangles". */
 std::string
 DescribeTriangles(double triangles)
@@ -422,16 +434,33 @@ CheckMeshScan(const MeshScanSettings & settings)
   return OutputsOf({ settings.mesh }, settings);
 }
 
+TemporaryStore
+SurfaceStore(const MeshEstimate & mesh, const MeshScanSettings & settings)
+{
+  return { settings.source.read.temporaryFolder,
+           "Cannot make surfaces of " + DescribeTriangles(mesh.triangles) + ": their arrays" };
+}
+
 void
-CheckMesh(const MeshEstimate & mesh, const MeshScanSettings & settings)
+CheckMesh(MeshEstimate & mesh, const MeshScanSettings & settings)
 {
   const LatticeSettings & lattice = settings.source.lattice;
-  if (lattice.denoising.kind != Denoising::Kind::None)
+  const bool isDenoised = lattice.denoising.kind != Denoising::Kind::None;
+  const std::uintmax_t allowed = MemoryAllowance(lattice.maximumMemory > 0 ? lattice.maximumMemory : FreeMemory());
+  constexpr std::uintmax_t small = std::uintmax_t{ 4 } << 20; // less than the program itself takes
+  if (mesh.bytes.afterwards > std::max(allowed, small) && MayBeInTemporaryFiles(settings))
+  {
+    const TemporaryStore store = SurfaceStore(mesh, settings);
+    isDenoised ? void() : RequireRoom(store, mesh.bytes.afterwards);
+    if (FindObstacle(store, mesh.bytes.afterwards).empty())
+    {
+      PutIntoTemporaryFiles(mesh);
+    }
+  }
+  if (isDenoised)
   {
     return;
   }
-  const std::uintmax_t allowed = MemoryAllowance(lattice.maximumMemory > 0 ? lattice.maximumMemory : FreeMemory());
-  constexpr std::uintmax_t small = std::uintmax_t{ 4 } << 20; // less than the program itself takes
   if (mesh.bytes.afterwards > std::max(allowed, small))
   {
     const double share = static_cast<double>(allowed) / static_cast<double>(mesh.bytes.afterwards);
@@ -466,7 +495,18 @@ MeshScan(const MeshScanSettings & settings, const Events & events, std::optional
   CheckOutputs(CheckMeshScan(settings), settings.source, settings.surfaces, InputsOf(settings.colourBy));
   ScanSource source = settings.source;
   source.streams = true;
-  source.checkMesh = [&settings](const MeshEstimate & mesh) { CheckMesh(mesh, settings); };
+  std::optional<BulkInTemporaryFiles> temporary;
+  source.checkMesh = [&](MeshEstimate & mesh) {
+    CheckMesh(mesh, settings);
+    if (mesh.temporaryBytes > 0)
+    {
+      const TemporaryStore store = SurfaceStore(mesh, settings);
+      temporary.emplace(store);
+      events.Note("the surfaces, " + DescribeTriangles(mesh.triangles) + ", are put into temporary files of some " +
+                  DescribeBytes(mesh.temporaryBytes) + " in " + store.FindFolder().string() +
+                  ", as they do not fit into the memory that is allowed");
+    }
+  };
   LoadedSource loaded = LoadSource(source, settings.surfaces, std::move(volume), events);
   CheckNumberOfSurfaces(loaded, settings);
   Report sourceReport = ReportSource(loaded, settings.source);

@@ -15,6 +15,7 @@ struct OptionName
 
 constexpr OptionName OptionNames[] = {
   { "maximumMemory = ", "--max-memory " },
+  { "temporaryFolder = ", "--temporary " },
   { "ScanReadOptions::acceptsAnalyze", "--analyze" },
   { "ScanReadOptions::followsLinks", "--follow-links" },
   { "ScanReadOptions::frame", "--frame" },

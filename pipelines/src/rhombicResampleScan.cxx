@@ -16,7 +16,8 @@ StageLattice(const Scan & scan, const ResampleScanSettings & settings, const Eve
 {
   const LatticeSettings & lattice = settings.source.lattice;
   LatticeStream stream;
-  const FCCVolume volume = ScanToLattice(OrderAlongPatient(scan, lattice.maximumMemory), lattice, events, &stream);
+  const FCCVolume volume = ScanToLattice(
+    OrderAlongPatient(scan, lattice.maximumMemory, settings.source.read.temporaryFolder), lattice, events, &stream);
   events.Progress("writing", 0.0);
   StageFCCImage(volume, settings.volume, staged);
   return { { "scan", ReportWithoutNames(scan, settings.source.path) },

@@ -235,18 +235,21 @@ PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & sel
   loaded.tableRemoval = TreatTable(scan, selection.removesTable, events);
   loaded.requests = ResolveRequests(requests, scan.image);
   NoteThinBone(scan, loaded.requests, events);
-  const Scan ordered = OrderAlongPatient(scan, source.lattice.maximumMemory);
+  const Scan ordered = OrderAlongPatient(scan, source.lattice.maximumMemory, source.read.temporaryFolder);
   loaded.stream.mayBeInSlabs = MayBeInSlabs(loaded.requests);
+  MeshEstimate mesh;
   if (source.streams)
   {
     const itk::Size<3> size = GeometryOf(ordered.image).GetLargestPossibleRegion().GetSize();
-    const MeshEstimate mesh = EstimateMesh({ ordered.image, FindSlicePairs(size), size[2] },
-                                           loaded.requests,
-                                           selection.mode,
-                                           source.lattice,
-                                           source.mostTriangles);
-    loaded.stream.check = [check = source.checkMesh, mesh] { check ? check(mesh) : void(); };
-    loaded.stream.surfaces = mesh.bytes;
+    mesh = EstimateMesh({ ordered.image, FindSlicePairs(size), size[2] },
+                        loaded.requests,
+                        selection.mode,
+                        source.lattice,
+                        source.mostTriangles);
+    loaded.stream.check = [&] {
+      source.checkMesh ? source.checkMesh(mesh) : void();
+      loaded.stream.surfaces = mesh.bytes;
+    };
   }
   loaded.lattice = ScanToLattice(ordered, source.lattice, events, source.streams ? &loaded.stream : nullptr);
   loaded.stream.check = nullptr;
@@ -317,8 +320,10 @@ LoadVolume(const ScanSource & source, const Events & events)
   {
     DropPages(scan.image);
     events.Note(PlaceOf(scan.image) == VoxelPlace::TemporaryFile
-                  ? "the voxels were put into a temporary file (in the folder TMPDIR) and are read from there where "
-                    "they are needed, as they do not fit into the memory that is allowed"
+                  ? "the voxels were put into a temporary file in " +
+                      TemporaryStore{ source.read.temporaryFolder, {} }.FindFolder().string() +
+                      " and are read from there where they are needed, as they do not fit into the memory that is "
+                      "allowed"
                   : "the voxels stay in their file and are read where they are needed, as they would take more "
                     "than half of the memory that is allowed");
   }

@@ -161,6 +161,21 @@ protected:
     return path;
   }
 
+  /** 60 x 60 x 60 voxels, of which surfaces have some 0.7 million triangles. */
+  fs::path
+  WriteNoise() const
+  {
+    const auto image = itk::Image<std::uint8_t, 3>::New();
+    image->SetRegions(itk::Size<3>{ { 60, 60, 60 } });
+    image->Allocate();
+    std::mt19937 random(7);
+    std::generate_n(
+      image->GetBufferPointer(), 60 * 60 * 60, [&random] { return static_cast<std::uint8_t>(random() % 256); });
+    const fs::path path = m_Folder.Path() / "noise.nii";
+    rhombic::WriteScan(rhombic::ScanImage(image), path);
+    return path;
+  }
+
   rhombictest::TemporaryFolder m_Folder;
 };
 
@@ -518,17 +533,43 @@ TEST_F(LargeScan, CompressedFilesAreRefusedWithTheCommandThatUnpacksThem)
   }
 }
 
-TEST_F(LargeScan, MeshesBeyondTheMemoryAreRefusedBeforeTheWork)
+TEST_F(LargeScan, MeshesBeyondTheMemoryAreTheSameByTemporaryFiles)
 {
-  const auto image = itk::Image<std::uint8_t, 3>::New();
-  image->SetRegions(itk::Size<3>{ { 60, 60, 60 } });
-  image->Allocate();
-  std::mt19937 random(7);
-  std::generate_n(
-    image->GetBufferPointer(), 60 * 60 * 60, [&random] { return static_cast<std::uint8_t>(random() % 256); });
-  const fs::path path = m_Folder.Path() / "noise.nii";
-  rhombic::WriteScan(rhombic::ScanImage(image), path);
+  using Mode = itk::FCCIsosurfaceMode;
+  rhombic::MeshScanSettings settings = this->SettingsOf(this->WriteNoise(), Plenty);
+  settings.source.read.temporaryFolder = m_Folder.Path();
+  if (const std::string obstacle = rhombic::FindObstacle({ m_Folder.Path(), {} }, Plenty); !obstacle.empty())
+  {
+    GTEST_SKIP() << obstacle;
+  }
+  const std::pair<Mode, const char *> cases[]{
+    { Mode::Lean, ".ply" }, { Mode::Lean, ".stl" }, { Mode::Fine, ".vtp" }, { Mode::Tetrahedra, ".glb" }
+  };
+  for (const auto & [mode, extension] : cases)
+  {
+    SCOPED_TRACE(extension);
+    settings.surfaces.mode = mode;
+    settings.mesh = m_Folder.Path() / (std::string("mesh") + extension);
+    settings.audits = std::string(extension) == ".stl";
+    settings.source.lattice.maximumMemory = Plenty;
+    const Outcome whole = this->Mesh(settings);
+    EXPECT_EQ(whole.notes.find("temporary files"), std::string::npos) << whole.notes;
+    settings.source.lattice.maximumMemory = 10'000'000;
+    const std::string plan = rhombic::PlanMeshScan(settings, {});
+    EXPECT_NE(plan.find(" in temporary files in " + m_Folder.Path().string()), std::string::npos) << plan;
+    const Outcome files = this->Mesh(settings);
+    EXPECT_NE(files.notes.find("are put into temporary files of some"), std::string::npos) << files.notes;
+    EXPECT_EQ(files.bytes == whole.bytes, true);
+  }
+  settings.source.read.temporaryFolder = m_Folder.Path() / "none";
+  EXPECT_THROW(this->Mesh(settings), rhombic::Failure);
+}
+
+TEST_F(LargeScan, MeshesBeyondTheMemoryAreRefusedBeforeWorkThatNeedsThemThere)
+{
+  const fs::path path = this->WriteNoise();
   rhombic::MeshScanSettings settings = this->SettingsOf(path, 10'000'000);
+  settings.finish.maximumError = 0.1;
   const auto sentenceOf = [](const auto & work) -> std::string {
     try
     {
@@ -560,7 +601,8 @@ TEST_F(LargeScan, MeshesBeyond32BitsAreRefusedBeforeTheWork)
   const auto sentenceOf = [&settings](double triangles) -> std::string {
     try
     {
-      rhombic::CheckMesh({ triangles, {} }, settings);
+      rhombic::MeshEstimate mesh{ triangles, {} };
+      CheckMesh(mesh, settings);
     }
     catch (const rhombic::Failure & failure)
     {

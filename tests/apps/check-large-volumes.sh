@@ -1,7 +1,7 @@
 #!/bin/bash
-# check-large-volumes.sh PROGRAM WORK: rhombic mesh in slabs of a scan in a temporary file is killed at random
-# moments, and meets full disks: nothing half-written, no file left over but hidden ones of killed processes, and the
-# next run makes the same bytes. Full disks need root, who can mount small ones. rhombic render draws the same picture of
+# check-large-volumes.sh PROGRAM WORK: rhombic mesh in slabs of a scan in a temporary file, and of a surface in temporary
+# files, is killed at random moments, and meets full disks: nothing half-written, no file left over but hidden ones of
+# killed processes, and the next run makes the same bytes. Full disks need root, who can mount small ones. rhombic render draws the same picture of
 # a volume in slabs as in memory.
 set -eu
 program=$1 work=$2
@@ -24,22 +24,48 @@ mesh() { # OUTPUT [MEMORY]: in place of a subshell
 (mesh "$work/whole.ply" 1G)
 cmp "$work/expected.ply" "$work/whole.ply"
 
+seq 150000 | gzip -9n | head -c 216000 > "$work/noise.raw" # of which surfaces have 0.7 million triangles
+cat > "$work/noise.mhd" << END
+ObjectType = Image
+NDims = 3
+DimSize = 60 60 60
+ElementType = MET_UCHAR
+ElementDataFile = noise.raw
+END
+noise() { # OUTPUT [MEMORY]: in place of a subshell
+    exec "$program" mesh "$work/noise.mhd" -t 127.5 --max-memory "${2:-10M}" --temporary "$work/tmp" --no-sidecar -o "$1"
+}
+(noise "$work/expected-noise.ply") 2> "$work/notes"
+grep -q "million triangles, are put into temporary files" "$work/notes" || fail "in memory: $(cat "$work/notes")"
+(noise "$work/whole.ply" 1G) 2> "$work/notes"
+cmp "$work/expected-noise.ply" "$work/whole.ply"
+
 RANDOM=7
-for run in $(seq 30); do
-    mesh "$work/out/mesh.ply" &
-    process=$!
-    sleep "$(printf '0.%03d' $((RANDOM % 700)))"
-    kill -9 $process 2> /dev/null || true
-    wait $process || true
-    if [ -e "$work/out/mesh.ply" ]; then
-        cmp "$work/expected.ply" "$work/out/mesh.ply" || fail "run $run left another mesh"
-        rm "$work/out/mesh.ply"
-    fi
-    [ -z "$(ls "$work/out")" ] || fail "run $run left $(ls "$work/out")"
-    [ -z "$(ls -A "$work/tmp")" ] || fail "run $run left $(ls -A "$work/tmp") for temporary files"
-done
-(mesh "$work/out/mesh.ply")
-cmp "$work/expected.ply" "$work/out/mesh.ply"
+kill_at_random() { # COMMAND EXPECTED RUNS MILLISECONDS
+    for run in $(seq "$3"); do
+        "$1" "$work/out/mesh.ply" 2> "$work/notes" &
+        process=$!
+        sleep "$(printf '%d.%03d' $((RANDOM % $4 / 1000)) $((RANDOM % 1000)))"
+        kill -9 $process 2> /dev/null || true
+        wait $process || true
+        if [ -e "$work/out/mesh.ply" ]; then
+            cmp "$2" "$work/out/mesh.ply" || fail "run $run left another mesh"
+            rm "$work/out/mesh.ply"
+        fi
+        [ -z "$(ls "$work/out")" ] || fail "run $run left $(ls "$work/out")"
+        [ -z "$(ls -A "$work/tmp")" ] || fail "run $run left $(ls -A "$work/tmp") for temporary files"
+    done
+    ("$1" "$work/out/mesh.ply") 2> "$work/notes"
+    cmp "$2" "$work/out/mesh.ply"
+    rm "$work/out/mesh.ply"
+}
+kill_at_random mesh "$work/expected.ply" 30 700
+kill_at_random noise "$work/expected-noise.ply" 10 2000
+
+code=0 # a disk that is full in the middle of the work: files of 4 MiB at most
+(trap '' XFSZ; ulimit -f 4096; noise "$work/out/mesh.ply") 2> "$work/sentence" || code=$?
+[ $code = 9 ] && grep -q "can't be put into temporary files" "$work/sentence" || fail "no room: $code, $(cat "$work/sentence")"
+[ -z "$(ls -A "$work/out" "$work/tmp" | grep -v ":$" | tr -d '\n')" ] || fail "no room left $(ls -A "$work/out" "$work/tmp")"
 
 truncate -s $((2 * 512 * 512 * 512)) "$work/plate.raw" # a hole but for a thin plate
 head -c 102400 /dev/zero | tr '\0' '\47' |
@@ -68,6 +94,10 @@ code=0
 (TMPDIR=$work/disk mesh "$work/out/other.ply") 2> "$work/sentence" || code=$?
 [ $code = 9 ] && grep -q "are free" "$work/sentence" || fail "a full folder of temporary files: $code, $(cat "$work/sentence")"
 [ ! -e "$work/out/other.ply" ] || fail "a mesh without room for its scan"
+code=0
+"$program" mesh "$work/noise.mhd" -t 127.5 --max-memory 10M --temporary "$work/disk" -o "$work/out/other.ply" 2> "$work/sentence" || code=$?
+[ $code = 9 ] && grep -q "their arrays are too large" "$work/sentence" || fail "a full folder for arrays: $code, $(cat "$work/sentence")"
+[ ! -e "$work/out/other.ply" ] || fail "a mesh without room for its arrays"
 dd if=/dev/zero of="$work/disk/filler" bs=1k 2> "$work/full" || true
 code=0
 (mesh "$work/disk/mesh.ply") 2> "$work/sentence" || code=$?
