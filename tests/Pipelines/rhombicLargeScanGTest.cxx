@@ -161,16 +161,16 @@ protected:
     return path;
   }
 
-  /** 60 x 60 x 60 voxels, of which surfaces have some 0.7 million triangles. */
+  /** A cube of noise. Surfaces of 60 voxels along each edge have some 0.7 million triangles. */
   fs::path
-  WriteNoise() const
+  WriteNoise(itk::SizeValueType edge) const
   {
     const auto image = itk::Image<std::uint8_t, 3>::New();
-    image->SetRegions(itk::Size<3>{ { 60, 60, 60 } });
+    image->SetRegions(itk::Size<3>{ { edge, edge, edge } });
     image->Allocate();
     std::mt19937 random(7);
     std::generate_n(
-      image->GetBufferPointer(), 60 * 60 * 60, [&random] { return static_cast<std::uint8_t>(random() % 256); });
+      image->GetBufferPointer(), edge * edge * edge, [&random] { return static_cast<std::uint8_t>(random() % 256); });
     const fs::path path = m_Folder.Path() / "noise.nii";
     rhombic::WriteScan(rhombic::ScanImage(image), path);
     return path;
@@ -536,7 +536,7 @@ TEST_F(LargeScan, CompressedFilesAreRefusedWithTheCommandThatUnpacksThem)
 TEST_F(LargeScan, MeshesBeyondTheMemoryAreTheSameByTemporaryFiles)
 {
   using Mode = itk::FCCIsosurfaceMode;
-  rhombic::MeshScanSettings settings = this->SettingsOf(this->WriteNoise(), Plenty);
+  rhombic::MeshScanSettings settings = this->SettingsOf(this->WriteNoise(50), Plenty);
   settings.source.read.temporaryFolder = m_Folder.Path();
   if (const std::string obstacle = rhombic::FindObstacle({ m_Folder.Path(), {} }, Plenty); !obstacle.empty())
   {
@@ -567,7 +567,7 @@ TEST_F(LargeScan, MeshesBeyondTheMemoryAreTheSameByTemporaryFiles)
 
 TEST_F(LargeScan, MeshesBeyondTheMemoryAreRefusedBeforeWorkThatNeedsThemThere)
 {
-  const fs::path path = this->WriteNoise();
+  const fs::path path = this->WriteNoise(60);
   rhombic::MeshScanSettings settings = this->SettingsOf(path, 10'000'000);
   settings.finish.maximumError = 0.1;
   const auto sentenceOf = [](const auto & work) -> std::string {

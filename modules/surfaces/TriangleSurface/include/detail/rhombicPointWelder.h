@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <vector>
 
 namespace rhombic
 {
@@ -86,7 +85,7 @@ private:
   }
 
   PointsContainer & m_Points;
-  std::vector<std::uint32_t> m_Slots; ///< indices of points; the size is a power of two
+  itk::BulkVector<std::uint32_t> m_Slots; ///< indices of points; the size is a power of two
 };
 
 } // namespace rhombic
