@@ -8,6 +8,7 @@
 #include "itkMath.h"
 #include "itkMultiThreaderBase.h"
 #include "itkTriangleSurfaceMeasures.h"
+#include "itkTriangleSurfaceSolids.h"
 #include "itkTriangleSurfaceTopology.h"
 #include "itkTriangleTree.h"
 
@@ -1095,6 +1096,33 @@ TEST(LabelSurfaces, InFewerTrianglesStayClosedWhereWallsMeet)
       left += fewer[n].surface->GetNumberOfTriangles();
     }
     EXPECT_LT(left, 3 * all / 4);
+  }
+}
+
+/** A layer so thin that it is in pieces, as fat is between muscle and skin in coarse maps. */
+TEST(LabelSurfaces, PatchesInFewTrianglesAreNotTurnedInsideOut)
+{
+  constexpr double thickness = 0.45;
+  for (const auto & [size, error] : { std::pair{ 15.0, 0.6 }, std::pair{ 14.5, 0.7 } })
+  {
+    SCOPED_TRACE(size);
+    rhombic::LabelMesh mesh = rhombic::LabelsToWalls(
+      MakeMap(36,
+              [size = size](const Point & point) {
+                const double radius = std::hypot(point[0], 0.8 * point[1], 1.1 * point[2]);
+                const double beyond = radius - size;
+                return beyond < 0.0 ? 1 : beyond < thickness ? 2 : beyond < thickness + 1.3 ? 3 : 0;
+              }),
+      {},
+      {});
+    rhombic::SurfaceFinish finish;
+    finish.maximumError = error;
+    rhombic::RefineWalls(mesh, finish, 1.0, {});
+    rhombic::ExtractSurfaces(mesh);
+    for (const LabelSurface & label : mesh.labels)
+    {
+      EXPECT_EQ(CountTriangleSurfaceShells(*label.scene.surface).misfacing, 0u) << label.scene.name;
+    }
   }
 }
 

@@ -412,7 +412,7 @@ private:
     Quadric quadric = m_Quadrics[from];
     quadric.Add(m_Quadrics[to]);
     EdgeToCollapse edge{ from, to, this->FindPosition(from, to, quadric), None, 0, error };
-    if (!this->KeepsShape(from, to, edge.position))
+    if (!this->KeepsShape(from, to, edge.position) || !this->KeepsOrder(from, to, edge.position))
     {
       return false;
     }
@@ -568,6 +568,109 @@ private:
       return after.quality > 0.0 && after.quality >= std::min(SliverQuality, worstBefore) &&
              (liesAlong(before.normal) || (before.quality < SliverQuality && liesAlong(normalOf(m_Sheets[id]))));
     });
+  }
+
+  /** A triangle at an edge: its third corner, and its sheet. */
+  struct Leaf
+  {
+    PositionType apex;
+    std::uint32_t sheet;
+  };
+
+  /** The sheets around an edge in their order, as seen along the edge from \a begin. */
+  static std::vector<std::uint32_t>
+  OrderSheets(const PositionType & begin, const PositionType & end, const std::vector<Leaf> & leaves)
+  {
+    const PositionType axis = Subtract(end, begin);
+    const PositionType side = Subtract(leaves.front().apex, begin); // at angle 0
+    const PositionType up = Cross(axis, side);
+    const PositionType along = Cross(up, axis);
+    std::vector<std::pair<double, std::uint32_t>> angles;
+    for (const Leaf & leaf : leaves)
+    {
+      const PositionType way = Subtract(leaf.apex, begin);
+      angles.emplace_back(std::atan2(Dot(way, up) * Length(axis), Dot(way, along)), leaf.sheet);
+    }
+    std::sort(angles.begin(), angles.end());
+    std::vector<std::uint32_t> sheets;
+    for (const auto & [angle, sheet] : angles)
+    {
+      sheets.push_back(sheet);
+    }
+    return sheets;
+  }
+
+  /** Whether sheets have the same order around an edge, from whichever sheet on. */
+  static bool
+  HaveSameOrder(std::vector<std::uint32_t> a, const std::vector<std::uint32_t> & b)
+  {
+    for (std::size_t n = 0; n < a.size(); ++n)
+    {
+      if (a == b)
+      {
+        return true;
+      }
+      std::rotate(a.begin(), a.begin() + 1, a.end());
+    }
+    return false;
+  }
+
+  /** The triangles of a fan at \a point with another point, but those with a third point. */
+  std::vector<Leaf>
+  FindLeaves(const Fan & fan, PointId other, PointId without = None) const
+  {
+    std::vector<Leaf> leaves;
+    for (const auto & [id, next, last] : fan)
+    {
+      if ((next == other || last == other) && next != without && last != without)
+      {
+        leaves.push_back({ m_Positions[next == other ? last : next], m_Sheets[id] });
+      }
+    }
+    return leaves;
+  }
+
+  /** Whether sheets keep their order around each edge of a curve. Where sheets change places, they enclose a region the
+   * wrong way round, without a crossing. */
+  bool
+  KeepsOrder(PointId from, PointId to, const PositionType & position) const
+  {
+    const auto isOnCurve = [this](PointId point) { return m_Strata[point] != Stratum::Sheet; };
+    const auto keepsAtPoint = [&](PointId other) { // the edge between the position and the other point
+      const bool isOfTo = this->FindLeaves(m_ToFan, other).size() > 2;
+      const PointId before = isOfTo ? to : from;
+      const std::vector<Leaf> leaves = this->FindLeaves(isOfTo ? m_ToFan : m_FromFan, other);
+      std::vector<Leaf> leavesAfter = this->FindLeaves(m_FromFan, other, to);
+      const std::vector<Leaf> ofTo = this->FindLeaves(m_ToFan, other, from);
+      leavesAfter.insert(leavesAfter.end(), ofTo.begin(), ofTo.end());
+      return leaves.size() < 3 || HaveSameOrder(OrderSheets(m_Positions[before], m_Positions[other], leaves),
+                                                OrderSheets(position, m_Positions[other], leavesAfter));
+    };
+    const auto keepsOpposite = [&](PointId next, PointId last, PointId moved) {
+      Fan fan;
+      this->CollectFan(next, fan);
+      const std::vector<Leaf> leaves = this->FindLeaves(fan, last);
+      std::vector<Leaf> leavesAfter = this->FindLeaves(fan, last, moved);
+      for (const auto & [id, a, b] : fan)
+      {
+        if ((a == last && b == moved) || (b == last && a == moved))
+        {
+          leavesAfter.push_back({ position, m_Sheets[id] });
+        }
+      }
+      return leaves.size() < 3 || HaveSameOrder(OrderSheets(m_Positions[next], m_Positions[last], leaves),
+                                                OrderSheets(m_Positions[next], m_Positions[last], leavesAfter));
+    };
+    for (std::size_t n = 0; n < m_Changed.size(); ++n)
+    {
+      const auto & [id, next, last] = m_Changed[n];
+      if ((isOnCurve(next) && !keepsAtPoint(next)) || (isOnCurve(last) && !keepsAtPoint(last)) ||
+          (isOnCurve(next) && isOnCurve(last) && !keepsOpposite(next, last, n < m_NumberFromChanged ? from : to)))
+      {
+        return false;
+      }
+    }
+    return true;
   }
 
   bool
