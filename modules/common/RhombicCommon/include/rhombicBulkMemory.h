@@ -15,6 +15,7 @@ namespace rhombic
 void *
 AllocateBulk(std::size_t bytes);
 
+/** Gives back a block of AllocateBulk(), or null. */
 void
 FreeBulk(void * block) noexcept;
 

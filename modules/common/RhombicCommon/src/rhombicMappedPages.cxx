@@ -29,11 +29,11 @@ constexpr char NoAddresses[] = "a limit of the address space, as ulimit -v, forb
 Refuse(const TemporaryStore & store, const std::string & why)
 {
   const std::string folder = store.FindFolder().string();
-  throw Failure(FailureKind::Memory,
-                store.what +
-                  " are too large for the memory that is allowed, and can't be put into temporary files in " +
-                  (folder.empty() ? "a folder" : folder) + " (" + why +
-                  "); name a folder on a disk with more room by temporaryFolder = FOLDER.");
+  throw Failure(
+    FailureKind::Memory,
+    store.what + " are too large for the memory that is allowed, and can't be put into temporary files in " +
+      (folder.empty() ? "a folder" : folder) + " (" + why + "); name a folder on a disk with more room by " +
+      (store.folder.empty() ? "TMPDIR, or by " : "") + "temporaryFolder = FOLDER.");
 }
 
 /** Opens a new file without a name; where the file system makes none, its name is removed at once. Below 0 where that
