@@ -23,7 +23,7 @@ declare -A flags=([no-slp]="-O3 -fno-tree-slp-vectorize" [O1]=-O1 [O2]=-O2 [avx2
 for variant in no-slp O1 O2 avx2 clang; do
   steps+=("compiler-$variant")
 done
-steps+=(malformed chaos faults)
+steps+=(malformed options chaos faults)
 steps+=(asan tsan)
 
 seconds=1800
@@ -177,6 +177,10 @@ for step in "${steps[@]}"; do
     fuzz-*) fuzz "$step" ;;
     compiler-*) compiler "$step" "${step#compiler-}" ;;
     malformed) malformed ;;
+    options)
+      [ -d "$folder/phantom" ] || build/dev/bin/rhombic -q phantom -o "$folder/phantom" --spacing 6
+      part options 1000-runs tail_of tests/fuzz/options.py -n 1000 build/dev/bin/rhombic "$folder/phantom"
+      ;;
     chaos) part chaos 300-cases tail_of tests/faults/chaos.py build/dev/bin/rhombic -c 300 -r 3 ;;
     faults)
       for command in $(tests/faults/inject-faults.py -l); do
