@@ -133,7 +133,7 @@ class Runs:
             plausible, wild = table[option]
             if plausible or is_wild:
                 arguments.append(option + "=" + pick(wild if is_wild and (not plausible or self.random.random() < 0.5) else plausible))
-        ending = pick(endings if is_wild else endings[:4] + endings[4:-2])
+        ending = pick(endings if is_wild else endings[:-2])
         arguments += ["--output", "{folder}/o" + ending]
         for name, path in {**self.inputs, "{folder}": self.folder}.items():
             arguments = [argument.replace(name, path) for argument in arguments]
