@@ -4,8 +4,6 @@
 #include "itkPointBox.h"
 
 #include <algorithm>
-#include <functional>
-#include <iterator>
 #include <utility>
 
 namespace itk
@@ -21,21 +19,15 @@ SquaredDistanceOfPoints(const PointType & a, const PointType & b)
   return SquaredDistance(ToPosition(a), ToPosition(b));
 }
 
-/** A binary tree of boxes around points. Each box halves its points across its longest side; the children of box n are
- * boxes 2 n + 1 and 2 n + 2. */
+/** A binary tree of boxes around points. A box is divided in the middle of its longest side when a search first needs
+ * its halves: most are told by their corners alone. */
 class PointBoxes
 {
 public:
   explicit PointBoxes(TriangleSurface::PointsContainer points)
     : m_Points(std::move(points))
   {
-    std::size_t leaves = 1;
-    while (leaves * LargestLeaf < m_Points.size())
-    {
-      leaves *= 2;
-    }
-    m_Boxes.resize(2 * leaves - 1);
-    this->Split(0, 0, m_Points.size());
+    this->AddBox(0, m_Points.size());
   }
 
   /** The largest squared distance between two points, or \a known if that is larger. */
@@ -56,34 +48,53 @@ private:
     PointBox bounds;
     std::size_t begin;
     std::size_t end;
+    std::size_t halves = 0; ///< the first of two boxes, one after the other; 0 before the box is divided
   };
 
   void
-  Split(std::size_t n, std::size_t begin, std::size_t end)
+  AddBox(std::size_t begin, std::size_t end)
   {
-    Box & box = m_Boxes[n];
-    box = { { m_Points[begin], m_Points[begin] }, begin, end };
+    Box box{ { m_Points[begin], m_Points[begin] }, begin, end };
     for (std::size_t point = begin; point < end; ++point)
     {
       box.bounds.Add(m_Points[point]);
     }
-    if (this->IsLeaf(n))
-    {
-      return;
-    }
-    const unsigned int longest = box.bounds.FindLongestAxis();
-    const std::size_t middle = (begin + end) / 2;
-    const auto at = [this](std::size_t point) { return m_Points.begin() + static_cast<std::ptrdiff_t>(point); };
-    std::nth_element(
-      at(begin), at(middle), at(end), [longest](const auto & a, const auto & b) { return a[longest] < b[longest]; });
-    this->Split(2 * n + 1, begin, middle);
-    this->Split(2 * n + 2, middle, end);
+    const bool isOnePoint = box.bounds.lowest == box.bounds.highest;
+    box.end = isOnePoint ? begin + 1 : end;
+    m_Boxes.push_back(box);
   }
 
   bool
   IsLeaf(std::size_t n) const
   {
-    return 2 * n + 1 >= m_Boxes.size();
+    return m_Boxes[n].end - m_Boxes[n].begin <= LargestLeaf;
+  }
+
+  /** The first of the two halves of a box, which is no leaf. */
+  std::size_t
+  Divide(std::size_t n)
+  {
+    if (m_Boxes[n].halves == 0)
+    {
+      const Box box = m_Boxes[n];
+      const unsigned int axis = box.bounds.FindLongestAxis();
+      const double middle = 0.5 * (double(box.bounds.lowest[axis]) + box.bounds.highest[axis]);
+      const auto first = m_Points.begin();
+      const auto second = std::partition(first + static_cast<std::ptrdiff_t>(box.begin),
+                                         first + static_cast<std::ptrdiff_t>(box.end),
+                                         [=](const PointType & point) { return point[axis] < middle; });
+      m_Boxes[n].halves = m_Boxes.size();
+      this->AddBox(box.begin, static_cast<std::size_t>(second - first));
+      this->AddBox(static_cast<std::size_t>(second - first), box.end);
+    }
+    return m_Boxes[n].halves;
+  }
+
+  /** Squared length of a box's diagonal. */
+  double
+  SizeOf(std::size_t n) const
+  {
+    return SquaredDistanceOfPoints(m_Boxes[n].bounds.lowest, m_Boxes[n].bounds.highest);
   }
 
   /** Squared distance between the farthest corners of two boxes. */
@@ -112,28 +123,27 @@ private:
     {
       return;
     }
-    if (this->IsLeaf(a)) // then b is a leaf, too: both have the same depth, and so do all leaves
+    if (this->IsLeaf(a) && this->IsLeaf(b))
     {
       this->ComparePoints(m_Boxes[a], m_Boxes[b]);
-      return;
     }
-    using Pair = std::pair<double, std::pair<std::size_t, std::size_t>>;
-    std::vector<Pair> pairs;
-    pairs.reserve(4);
-    for (const std::size_t childOfA : { 2 * a + 1, 2 * a + 2 })
+    else if (a == b)
     {
-      for (const std::size_t childOfB : { 2 * b + 1, 2 * b + 2 })
+      const std::size_t half = this->Divide(a);
+      this->Search(half, half + 1); // first, as the best pair is likely there
+      this->Search(half, half);
+      this->Search(half + 1, half + 1);
+    }
+    else
+    {
+      if (this->IsLeaf(b) || (!this->IsLeaf(a) && this->SizeOf(a) > this->SizeOf(b)))
       {
-        if (a != b || childOfA <= childOfB) // each pair once
-        {
-          pairs.push_back({ this->BoundOf(childOfA, childOfB), { childOfA, childOfB } });
-        }
+        std::swap(a, b);
       }
-    }
-    std::sort(pairs.begin(), pairs.end(), std::greater<>());
-    for (const Pair & pair : pairs)
-    {
-      this->Search(pair.second.first, pair.second.second);
+      const std::size_t half = this->Divide(b);
+      const bool isFirstFarther = this->BoundOf(a, half) > this->BoundOf(a, half + 1);
+      this->Search(a, isFirstFarther ? half : half + 1);
+      this->Search(a, isFirstFarther ? half + 1 : half);
     }
   }
 
@@ -162,28 +172,6 @@ FindFarthest(const TriangleSurface::PointsContainer & points, const PointType & 
   });
 }
 
-/** The points that may be ends of a distance of more than \a length: the others are nearer than that to all corners of
- * the box around the points. */
-TriangleSurface::PointsContainer
-FindEnds(const TriangleSurface::PointsContainer & points, double length)
-{
-  PointBox box{ points.front(), points.front() };
-  std::for_each(points.begin(), points.end(), [&box](const PointType & point) { box.Add(point); });
-  constexpr double rounding = 1e-9; // generous
-  const double least = length * length * (1.0 - rounding);
-  TriangleSurface::PointsContainer ends;
-  std::copy_if(points.begin(), points.end(), std::back_inserter(ends), [&](const PointType & point) {
-    double farthest = 0.0; // squared
-    for (unsigned int axis = 0; axis < 3; ++axis)
-    {
-      const double reach = std::max(double(point[axis]) - box.lowest[axis], double(box.highest[axis]) - point[axis]);
-      farthest += reach * reach;
-    }
-    return !(farthest < least);
-  });
-  return ends;
-}
-
 } // namespace
 
 double
@@ -197,8 +185,7 @@ ComputeTriangleSurfaceLongestDiameter(const TriangleSurface & surface)
   // A good first guess spares most of the search.
   const PointType first = FindFarthest(points, points.front());
   const PointType second = FindFarthest(points, first);
-  const double guess = SquaredDistanceOfPoints(first, second);
-  return std::sqrt(PointBoxes(FindEnds(points, std::sqrt(guess))).FindLargest(guess));
+  return std::sqrt(PointBoxes(points).FindLargest(SquaredDistanceOfPoints(first, second)));
 }
 
 } // namespace itk
