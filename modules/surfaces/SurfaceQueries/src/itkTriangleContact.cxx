@@ -7,6 +7,7 @@
 #include "detail/itkPositionArithmetic.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace itk
 {
@@ -241,31 +242,80 @@ FindContact(const Corners & first, const Corners & second, unsigned int shared)
   return CompareIntervals(first, firstSides, second, secondSides, shared);
 }
 
-/** Whether all corners of \a other that \a triangle lacks are certain to lie on one side of its plane, by
- * floating-point numbers alone. */
+constexpr double RoundingOfProduct =
+  1e-14; // of a product of three coordinates, over that of the vectors' lengths; generous
+
+double
+SumOfLengths(const PositionType & v)
+{
+  return std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]);
+}
+
+/** A plane by floating-point numbers. */
+struct RoundedPlane
+{
+  PositionType origin;
+  PositionType normal;
+  double bound; ///< of rounding, over the length of a point's offset from the origin
+};
+
+/** Between which heights above a plane the corners of a triangle are certain to lie that another triangle lacks. */
+std::array<double, 2>
+FindHeights(const TriangleSurface::PointsContainer & points,
+            const TriangleSurface::TriangleType & triangle,
+            const TriangleSurface::TriangleType & other,
+            const RoundedPlane & plane)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double least = infinity, greatest = -infinity;
+  for (const std::uint32_t corner : triangle)
+  {
+    const bool isShared = (corner == other[0]) | (corner == other[1]) | (corner == other[2]);
+    const PositionType offset = Subtract(ToPosition(points[corner]), plane.origin);
+    const double height = Dot(plane.normal, offset);
+    const double bound = plane.bound * SumOfLengths(offset);
+    least = isShared ? least : std::min(least, height - bound);
+    greatest = isShared ? greatest : std::max(greatest, height + bound);
+  }
+  return { least, greatest };
+}
+
+/** Whether all corners of \a other that \a triangle lacks are certain to lie on one side of its plane. */
 bool
 IsBesidePlane(const TriangleSurface::PointsContainer & points,
               const TriangleSurface::TriangleType & triangle,
               const TriangleSurface::TriangleType & other)
 {
-  constexpr double rounding = 1e-14; // of a product of three coordinates, over that of the vectors' lengths; generous
-  const auto lengthOf = [](const PositionType & v) { return std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]); };
   const PositionType origin = ToPosition(points[triangle[0]]);
   const PositionType u = Subtract(ToPosition(points[triangle[1]]), origin);
   const PositionType v = Subtract(ToPosition(points[triangle[2]]), origin);
-  const PositionType normal = Cross(u, v);
-  const double bound = rounding * lengthOf(u) * lengthOf(v);
-  bool areAbove = true, areBelow = true;
-  for (const std::uint32_t corner : other)
+  const auto [least, greatest] = FindHeights(
+    points, other, triangle, { origin, Cross(u, v), RoundingOfProduct * SumOfLengths(u) * SumOfLengths(v) });
+  return (least > 0.0) != (greatest < 0.0); // both if all corners are shared
+}
+
+/** Whether a plane across the way from one centre to the other is certain to part the triangles, but for a corner that
+ * they share. */
+bool
+ArePartedBetweenCentres(const TriangleSurface::PointsContainer & points,
+                        const TriangleSurface::TriangleType & first,
+                        const TriangleSurface::TriangleType & second)
+{
+  PositionType way{};
+  std::uint32_t origin = first[0];
+  unsigned int shared = 0;
+  for (std::size_t n = 0; n < 3; ++n)
   {
-    const bool isShared = (corner == triangle[0]) | (corner == triangle[1]) | (corner == triangle[2]);
-    const PositionType offset = Subtract(ToPosition(points[corner]), origin);
-    const double height = Dot(normal, offset);
-    const double leastHeight = bound * lengthOf(offset);
-    areAbove &= isShared | (height > leastHeight);
-    areBelow &= isShared | (height < -leastHeight);
+    way = Add(way, Subtract(ToPosition(points[second[n]]), ToPosition(points[first[n]])));
+    const bool isShared = std::find(second.begin(), second.end(), first[n]) != second.end();
+    origin = isShared ? first[n] : origin;
+    shared += isShared ? 1 : 0;
   }
-  return areAbove != areBelow; // both if all corners are shared
+  const RoundedPlane plane{ ToPosition(points[origin]), way, RoundingOfProduct * SumOfLengths(way) };
+  const double greatestOfFirst = FindHeights(points, first, second, plane)[1];
+  const double leastOfSecond = FindHeights(points, second, first, plane)[0];
+  return shared == 0 ? greatestOfFirst < leastOfSecond
+                     : shared == 1 && greatestOfFirst < 0.0 && leastOfSecond > 0.0; // the plane holds the corner
 }
 
 } // namespace
@@ -275,7 +325,8 @@ FindContact(const TriangleSurface::PointsContainer & points,
             TriangleSurface::TriangleType first,
             TriangleSurface::TriangleType second)
 {
-  if (IsBesidePlane(points, first, second) || IsBesidePlane(points, second, first))
+  if (IsBesidePlane(points, first, second) || IsBesidePlane(points, second, first) ||
+      ArePartedBetweenCentres(points, first, second))
   {
     return Contact::Apart;
   }
