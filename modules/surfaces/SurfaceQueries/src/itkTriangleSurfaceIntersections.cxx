@@ -371,17 +371,18 @@ FindCrossingTriangles(const TriangleTree & tree,
 std::vector<std::uint32_t>
 FindCrossingTriangles(const TriangleGrid & grid, rhombic::StagedProgress & progress, double stageEnd)
 {
-  constexpr std::size_t rowsOfBlock = 16;
+  constexpr std::size_t blocksTogether = 4;
   const TriangleSurface & surface = grid.GetSurface();
-  progress.Begin(stageEnd, grid.GetNumberOfRows());
-  return CollectIds(grid.GetNumberOfRows(), rowsOfBlock, [&](std::size_t firstRow, std::size_t lastRow, auto & found) {
+  progress.Begin(stageEnd, grid.GetNumberOfBlocks());
+  return CollectIds(grid.GetNumberOfBlocks(), blocksTogether, [&](std::size_t first, std::size_t last, auto & found) {
+    TriangleGrid::Block block(grid);
     TriangleNeighborhood near(surface);
     TriangleNeighborhood::StepBox around; // the cell's triangles
     std::size_t ofCell = 0;
-    const auto begin = [&](const TriangleGrid::Entry * first, const TriangleGrid::Entry * last) {
+    const auto begin = [&](const TriangleGrid::Entry * entry, const TriangleGrid::Entry * end) {
       near.Clear();
-      around = first->box;
-      for (const TriangleGrid::Entry * entry = first; entry != last; ++entry)
+      around = entry->box;
+      for (; entry != end; ++entry)
       {
         near.Add(entry->triangle, entry->box, entry->unfoldedCorners);
         for (unsigned int axis = 0; axis < 3; ++axis)
@@ -392,8 +393,8 @@ FindCrossingTriangles(const TriangleGrid & grid, rhombic::StagedProgress & progr
       }
       ofCell = near.GetSize();
     };
-    const auto add = [&](const TriangleGrid::Entry * first, const TriangleGrid::Entry * last) {
-      for (const TriangleGrid::Entry * entry = first; entry != last; ++entry)
+    const auto add = [&](const TriangleGrid::Entry * entry, const TriangleGrid::Entry * end) {
+      for (; entry != end; ++entry)
       {
         const auto & box = entry->box;
         if ((box[0] <= around[3]) & (box[1] <= around[4]) & (box[2] <= around[5]) & (around[0] <= box[3]) &
@@ -411,11 +412,12 @@ FindCrossingTriangles(const TriangleGrid & grid, rhombic::StagedProgress & progr
         }
       });
     };
-    for (std::size_t row = firstRow; row < lastRow; ++row)
+    for (std::size_t n = first; n < last; ++n)
     {
-      grid.VisitCells(row, begin, add, test);
+      block.Load(n);
+      block.VisitCells(begin, add, test);
     }
-    progress.Completed(lastRow - firstRow);
+    progress.Completed(last - first);
   });
 }
 

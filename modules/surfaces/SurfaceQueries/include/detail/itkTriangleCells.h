@@ -92,17 +92,12 @@ public:
     return this->Find(point[0], 0) + m_Sizes[0] * (this->Find(point[1], 1) + m_Sizes[1] * this->Find(point[2], 2));
   }
 
-  /** The cell of the box's centre. */
+  /** The number of the cell of a box's centre along an axis. */
   std::size_t
-  FindCentre(const PointBox & box) const
+  FindCentre(const PointBox & box, unsigned int axis) const
   {
-    std::size_t cell = 0;
-    for (unsigned int axis = 3; axis-- > 0;)
-    {
-      const float low = box.lowest[axis] - m_Box.lowest[axis], high = box.highest[axis] - m_Box.lowest[axis];
-      cell = cell * m_Sizes[axis] + this->ToNumber(0.5f * (low + high) * m_CellsPerMillimetre[axis], axis);
-    }
-    return cell;
+    const float low = box.lowest[axis] - m_Box.lowest[axis], high = box.highest[axis] - m_Box.lowest[axis];
+    return this->ToNumber(0.5f * (low + high) * m_CellsPerMillimetre[axis], axis);
   }
 
   /** The middle of a cell along an axis, about. */
