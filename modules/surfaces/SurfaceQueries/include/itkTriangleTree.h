@@ -276,6 +276,17 @@ private:
 
   class Builder;
 
+  /** Puts the box around those of its children in a node that is no leaf. */
+  void
+  JoinBoxes(std::size_t id)
+  {
+    m_Nodes[id].box = m_Nodes[id + 1].box;
+    m_Nodes[id].box.Add(m_Nodes[id + 2 * std::size_t{ m_Nodes[id].leavesOfLeft }].box);
+  }
+
+  void
+  RefitSubtree(const Node & top);
+
   void
   Build(BulkVector<std::uint32_t> triangles);
 

@@ -481,16 +481,15 @@ TriangleTree::Enlarge(const Box & before, const Box & after)
 }
 
 void
-TriangleTree::Refit()
+TriangleTree::RefitSubtree(const Node & top)
 {
-  std::size_t leaf = this->GetNumberOfLeaves();
-  for (std::size_t id = m_Nodes.size(); id-- > 0;) // children before their parents
+  std::size_t leaf = top.end;
+  for (std::size_t id = top.id + 2 * (top.end - top.begin) - 1; id-- > top.id;) // children before their parents
   {
     StoredNode & node = m_Nodes[id];
     if (node.leavesOfLeft > 0)
     {
-      node.box = m_Nodes[id + 1].box;
-      node.box.Add(m_Nodes[id + 2 * std::size_t{ node.leavesOfLeft }].box);
+      this->JoinBoxes(id);
       continue;
     }
     const Leaf triangles = this->GetLeaf(--leaf);
@@ -500,6 +499,21 @@ TriangleTree::Refit()
       node.box.Add(this->GetTriangleBox(triangle));
     }
   }
+}
+
+void
+TriangleTree::Refit()
+{
+  constexpr std::size_t leavesOfSubtree = 256;
+  std::vector<Node> subtrees;
+  std::vector<std::size_t> above;
+  this->VisitNodes([&](const Node & node) {
+    const bool isAbove = node.end - node.begin > leavesOfSubtree;
+    isAbove ? above.push_back(node.id) : subtrees.push_back(node);
+    return isAbove;
+  });
+  rhombic::ForEachInBlocks(subtrees.size(), 1, [&](std::size_t n) { this->RefitSubtree(subtrees[n]); });
+  std::for_each(above.rbegin(), above.rend(), [this](std::size_t id) { this->JoinBoxes(id); });
 }
 
 std::vector<std::size_t>
