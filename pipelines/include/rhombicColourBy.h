@@ -44,6 +44,10 @@ struct ColourBy
   Summary summary = Summary::AtSurface; ///< of volumes
   double depth = 0.0;                   ///< mm; of Mean and Maximum
   double radius = 2.0;                  ///< mm; of the places around a point that its curvature is taken from
+
+  /** Of a volume's voxels: as ScanReadOptions has them. */
+  std::uintmax_t maximumMemory = 0;
+  std::filesystem::path temporaryFolder{};
 };
 
 /** What is written as pet.nii.gz, pet.nii.gz,0,7,inferno, pet.nii.gz,max:5mm, distance:other.stl,
@@ -54,6 +58,17 @@ ParseColourBy(const std::string & text);
 /** The files that numbers come from, if any do. Throws Failure(NotFound) where one is missing. */
 std::vector<std::filesystem::path>
 InputsOf(const std::optional<ColourBy> & by);
+
+/** What colouring takes, in bytes, beside the surfaces that are coloured. */
+struct ColourBytes
+{
+  std::uintmax_t voxels = 0; ///< in memory, of a volume
+  std::uintmax_t others = 0; ///< of other surfaces, about; they are where surfaces are
+};
+
+/** From headers and sizes of files. Throws Failure(Memory) where a volume is too large. */
+ColourBytes
+CountColourBytes(const ColourBy & by);
 
 /** The colours that surfaces have, and what they mean. */
 struct SurfaceColours

@@ -44,6 +44,18 @@ EstimateMesh(const SampledSlices & sample,
              const LatticeSettings & lattice,
              double mostTriangles = 0.0);
 
+/** What is done to surfaces when they have no crossings. */
+struct MeshSteps
+{
+  bool smooths = false;
+  bool simplifies = false;
+  bool colours = false;
+};
+
+/** Counts the memory of steps that need more than the search for crossings. */
+void
+CountSteps(const MeshSteps & steps, MeshEstimate & mesh);
+
 /** Takes surfaces out of the memory but for what can't be in temporary files. */
 void
 PutIntoTemporaryFiles(MeshEstimate & mesh);

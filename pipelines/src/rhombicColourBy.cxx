@@ -29,7 +29,7 @@ constexpr const char * TitleOfDistances = "distance, mm";
 constexpr const char * NameOfDistances = "distance_mm";
 
 /** Values of the points of a surface. */
-using Values = std::vector<float>;
+using Values = itk::BulkVector<float>;
 
 /** The surfaces that distances are measured to: of a label map those with the names of the other surfaces, if there
  * are any, as walls depend on which labels have surfaces.
@@ -337,7 +337,7 @@ Paint(const ColourBy & by, NamedValues found, std::vector<SceneSurface> & surfac
   {
     Values & values = found.all[n];
     points += values.size();
-    auto ofPoints = std::make_shared<std::vector<std::array<std::uint8_t, 3>>>(values.size());
+    auto ofPoints = std::make_shared<PointColours>(values.size());
     std::transform(
       values.begin(), values.end(), ofPoints->begin(), [&](float value) { return ToBytes(ColourOf(scale, value)); });
     surfaces[n].pointColours = std::move(ofPoints);
@@ -406,6 +406,31 @@ InputsOf(const std::optional<ColourBy> & by)
     throw Failure(FailureKind::NotFound, "There is no " + by->file.string() + " to colour by; check its name.");
   }
   return { by->file };
+}
+
+ColourBytes
+CountColourBytes(const ColourBy & by)
+{
+  constexpr std::uintmax_t perByteOfFile = 5; // with a tree; PLY files have some 20 bytes a triangle
+  ColourBytes bytes;
+  if (by.kind == ColourBy::Kind::Distance)
+  {
+    std::error_code error; // the size of a folder, or where reading will fail
+    const std::uintmax_t size = std::filesystem::file_size(by.file, error);
+    bytes.others = error ? 0 : perByteOfFile * size;
+  }
+  if (by.kind == ColourBy::Kind::Volume)
+  {
+    const ScanSource source = SourceOfVolume(by);
+    const UnreadScan file = OpenScan(source.path, source.read);
+    const auto count = [](const auto & image) -> std::uintmax_t {
+      return image->GetLargestPossibleRegion().GetNumberOfPixels() *
+             sizeof(typename std::decay_t<decltype(*image)>::PixelType);
+    };
+    const bool isInMemory = !file.findPlace || file.findPlace() == VoxelPlace::Memory;
+    bytes.voxels = isInMemory ? std::visit(count, file.scan.image) : 0;
+  }
+  return bytes;
 }
 
 SurfaceColours

@@ -398,12 +398,41 @@ AdviseCoarser(const LatticeSettings & lattice, double share)
 bool
 MayBeInTemporaryFiles(const MeshScanSettings & settings)
 {
-  const auto & requests = settings.surfaces.requests;
-  return MayBeInSlabs(requests) && !settings.colourBy && settings.minimumThickness == 0.0 &&
-         std::all_of(requests.begin(), requests.end(), [&](const SurfaceRequest & request) {
-           const SurfaceFinish finish = CombineFinish(request.finish, settings.finish);
-           return !finish.Simplifies() && finish.smoothing.IsNothing();
-         });
+  const auto & by = settings.colourBy;
+  const bool makesLabels = by && by->kind == ColourBy::Kind::Distance && !IsSurfacePath(by->file);
+  return MayBeInSlabs(settings.surfaces.requests) && !makesLabels;
+}
+
+/** The bytes that all may take, and surfaces, less than which the program itself takes. */
+std::uintmax_t
+AllowedBytes(const MeshScanSettings & settings)
+{
+  constexpr std::uintmax_t small = std::uintmax_t{ 4 } << 20;
+  const std::uintmax_t most = settings.source.lattice.maximumMemory;
+  return std::max(MemoryAllowance(most > 0 ? most : FreeMemory()), small);
+}
+
+/** What colours come from, while surfaces are in temporary files. */
+ColourBy
+WithinMemory(ColourBy by, const MeshScanSettings & settings)
+{
+  by.maximumMemory = AllowedBytes(settings) / 2;
+  by.temporaryFolder = settings.source.read.temporaryFolder;
+  return by;
+}
+
+MeshSteps
+StepsOf(const MeshScanSettings & settings)
+{
+  MeshSteps steps;
+  for (const SurfaceRequest & request : settings.surfaces.requests)
+  {
+    const SurfaceFinish finish = CombineFinish(request.finish, settings.finish);
+    steps.smooths = steps.smooths || !finish.smoothing.IsNothing();
+    steps.simplifies = steps.simplifies || finish.Simplifies();
+  }
+  steps.colours = settings.colourBy.has_value();
+  return steps;
 }
 
 /** "some 5.12 million triangles". */
@@ -446,22 +475,26 @@ CheckMesh(MeshEstimate & mesh, const MeshScanSettings & settings)
 {
   const LatticeSettings & lattice = settings.source.lattice;
   const bool isDenoised = lattice.denoising.kind != Denoising::Kind::None;
-  const std::uintmax_t allowed = MemoryAllowance(lattice.maximumMemory > 0 ? lattice.maximumMemory : FreeMemory());
-  constexpr std::uintmax_t small = std::uintmax_t{ 4 } << 20; // less than the program itself takes
-  if (mesh.bytes.afterwards > std::max(allowed, small) && MayBeInTemporaryFiles(settings))
+  const std::uintmax_t allowed = AllowedBytes(settings);
+  CountSteps(StepsOf(settings), mesh);
+  if (mesh.bytes.afterwards > allowed && MayBeInTemporaryFiles(settings))
   {
     const TemporaryStore store = SurfaceStore(mesh, settings);
+    const ColourBytes colours =
+      settings.colourBy ? CountColourBytes(WithinMemory(*settings.colourBy, settings)) : ColourBytes();
+    mesh.bytes.afterwards += colours.others;
     isDenoised ? void() : RequireRoom(store, mesh.bytes.afterwards);
     if (FindObstacle(store, mesh.bytes.afterwards).empty())
     {
       PutIntoTemporaryFiles(mesh);
+      mesh.bytes.afterwards += colours.voxels;
     }
   }
   if (isDenoised)
   {
     return;
   }
-  if (mesh.bytes.afterwards > std::max(allowed, small))
+  if (mesh.bytes.afterwards > allowed)
   {
     const double share = static_cast<double>(allowed) / static_cast<double>(mesh.bytes.afterwards);
     RequireMemory(mesh.bytes.afterwards,
@@ -530,7 +563,8 @@ MeshScan(const MeshScanSettings & settings, const Events & events, std::optional
   FinishSurfaces(making, surfaces);
   if (settings.colourBy)
   {
-    sourceReport["colours"] = ColourMeshes(*settings.colourBy, frame, surfaces, events);
+    const ColourBy by = temporary ? WithinMemory(*settings.colourBy, settings) : *settings.colourBy;
+    sourceReport["colours"] = ColourMeshes(by, frame, surfaces, events);
   }
 
   const FileInspection inspection{ settings, loaded.scan, events };

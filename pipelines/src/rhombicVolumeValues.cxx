@@ -56,12 +56,12 @@ struct InwardWay
 };
 
 /** The ways inwards of a surface's points: as long as the depth, but not out of the body again. */
-std::vector<InwardWay>
+itk::BulkVector<InwardWay>
 FindWays(const itk::TriangleSurface & surface, double depth)
 {
   const auto normals = ComputeTriangleSurfacePointNormals(surface);
-  const std::vector<float> walls = ComputeTriangleSurfaceWalls(surface, itk::TriangleTree(surface));
-  std::vector<InwardWay> ways(normals.size());
+  const itk::BulkVector<float> walls = ComputeTriangleSurfaceWalls(surface, itk::TriangleTree(surface));
+  itk::BulkVector<InwardWay> ways(normals.size());
   for (std::size_t n = 0; n < ways.size(); ++n)
   {
     ways[n] = { normals[n],
@@ -100,7 +100,7 @@ private:
 
 /** The values of a surface's points, as stored. */
 template <typename TImage>
-std::vector<float>
+itk::BulkVector<float>
 SampleSurface(const TImage & image, const ColourBy & by, const itk::TriangleSurface & surface)
 {
   const auto interpolator = itk::LinearInterpolateImageFunction<TImage, double>::New();
@@ -108,9 +108,9 @@ SampleSurface(const TImage & image, const ColourBy & by, const itk::TriangleSurf
   const auto & spacing = image.GetSpacing();
   const double step = 0.5 * std::min({ spacing[0], spacing[1], spacing[2] });
   const bool goesInwards = by.summary != ColourBy::Summary::AtSurface;
-  const std::vector<InwardWay> ways =
-    goesInwards ? FindWays(surface, by.depth) : std::vector<InwardWay>(surface.GetNumberOfPoints());
-  std::vector<float> values(ways.size());
+  const itk::BulkVector<InwardWay> ways =
+    goesInwards ? FindWays(surface, by.depth) : itk::BulkVector<InwardWay>(surface.GetNumberOfPoints());
+  itk::BulkVector<float> values(ways.size());
   constexpr std::size_t blockSize = 1024;
   ForEachInBlocks(ways.size(), blockSize, [&](std::size_t n) {
     const auto & point = surface.GetPoints()[n];
@@ -185,15 +185,23 @@ RequireSamePlace(const std::filesystem::path & file,
   }
 }
 
+ScanSource
+SourceOfVolume(const ColourBy & by)
+{
+  ScanSource source;
+  source.path = by.file;
+  source.read.maximumMemory = by.maximumMemory;
+  source.read.temporaryFolder = by.temporaryFolder;
+  return source;
+}
+
 VolumeValues
 SampleVolume(const ColourBy & by,
              const std::string & frameOfReference,
              const std::vector<SceneSurface> & surfaces,
              const Events & events)
 {
-  ScanSource source;
-  source.path = by.file;
-  const Scan volume = ReadScan(source, events);
+  const Scan volume = ReadScan(SourceOfVolume(by), events);
   if (!volume.sliceOrigins.empty())
   {
     throw Failure(FailureKind::Usage,

@@ -2,6 +2,7 @@
 #define rhombicVolumeValues_h
 
 #include "rhombicColourBy.h"
+#include "rhombicScanSource.h"
 
 #include <string>
 #include <vector>
@@ -12,9 +13,12 @@ namespace rhombic
 /** Numbers of the points of each surface, and their unit. */
 struct VolumeValues
 {
-  std::vector<std::vector<float>> values; ///< NaN outside of the volume
+  std::vector<itk::BulkVector<float>> values; ///< NaN outside of the volume
   std::string unit;                       ///< "HU", "Bq/ml", "SUV"; empty if unknown
 };
+
+ScanSource
+SourceOfVolume(const ColourBy & by);
 
 /** The values of a volume at the points of surfaces. Throws Failure as ColourSurfaces() does. */
 VolumeValues

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <random>
 #include <set>
@@ -565,11 +566,51 @@ TEST_F(LargeScan, MeshesBeyondTheMemoryAreTheSameByTemporaryFiles)
   EXPECT_THROW(this->Mesh(settings), rhombic::Failure);
 }
 
+TEST_F(LargeScan, FinishedMeshesBeyondTheMemoryAreTheSameByTemporaryFiles)
+{
+  const fs::path path = this->WriteNoise(50);
+  if (const std::string obstacle = rhombic::FindObstacle({ m_Folder.Path(), {} }, Plenty); !obstacle.empty())
+  {
+    GTEST_SKIP() << obstacle;
+  }
+  const auto expectSame = [&](const std::string & what, const std::function<void(rhombic::MeshScanSettings &)> & set) {
+    SCOPED_TRACE(what);
+    rhombic::MeshScanSettings settings = this->SettingsOf(path, Plenty);
+    settings.source.read.temporaryFolder = m_Folder.Path();
+    set(settings);
+    const Outcome whole = this->Mesh(settings);
+    EXPECT_EQ(whole.notes.find("temporary files"), std::string::npos) << whole.notes;
+    settings.source.lattice.maximumMemory = 10'000'000;
+    Outcome files = this->Mesh(settings);
+    const std::size_t note = files.notes.find("the surfaces, some");
+    ASSERT_NE(note, std::string::npos) << files.notes;
+    files.notes.erase(note, files.notes.find('\n', note) + 1 - note);
+    EXPECT_EQ(files.notes, whole.notes);
+    EXPECT_EQ(files.bytes == whole.bytes, true);
+  };
+  expectSame("smoothed", [](auto & settings) { settings.finish.smoothing.spacings = 0.3; });
+  expectSame("fewer", [](auto & settings) { settings.finish.share = 0.8; });
+  expectSame("within an error", [](auto & settings) { settings.finish.maximumError = 0.02; });
+  expectSame("thin", [](auto & settings) { settings.minimumThickness = 1.0; });
+  expectSame("coloured by a volume", [&](auto & settings) {
+    settings.colourBy = rhombic::ParseColourBy(path.string() + ",0,255,mean:2mm");
+  });
+  expectSame("coloured by curvature", [](auto & settings) {
+    settings.colourBy = rhombic::ParseColourBy("curvature:2mm");
+    settings.mesh.replace_extension(".vtp");
+  });
+  const fs::path other = m_Folder.Path() / "other.ply";
+  fs::copy_file(m_Folder.Path() / "mesh.ply", other);
+  expectSame("coloured by distances", [&](auto & settings) {
+    settings.colourBy = rhombic::ParseColourBy("distance:" + other.string());
+  });
+}
+
 TEST_F(LargeScan, MeshesBeyondTheMemoryAreRefusedBeforeWorkThatNeedsThemThere)
 {
   const fs::path path = this->WriteNoise(60);
   rhombic::MeshScanSettings settings = this->SettingsOf(path, 10'000'000);
-  settings.finish.maximumError = 0.1;
+  settings.colourBy = rhombic::ParseColourBy("distance:" + path.string()); // to the surfaces of labels
   const auto sentenceOf = [](const auto & work) -> std::string {
     try
     {

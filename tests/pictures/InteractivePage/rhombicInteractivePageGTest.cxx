@@ -239,7 +239,7 @@ TEST(InteractivePage, SurfacesWithValuesHaveTheirOwnWalls)
                                       Named("b", itk::example::MakeTetrahedron(10.0f)) };
   for (SceneSurface & surface : surfaces)
   {
-    surface.pointValues = std::make_shared<PointValues>(PointValues{ "", std::vector<float>(4, 1.0f) });
+    surface.pointValues = std::make_shared<PointValues>(PointValues{ "", itk::BulkVector<float>(4, 1.0f) });
   }
   const PageMesh mesh = MakePageMesh(surfaces, ColourScale{ "viridis", 0.0, 2.0, "" });
   EXPECT_EQ(mesh.triangles, 8u);

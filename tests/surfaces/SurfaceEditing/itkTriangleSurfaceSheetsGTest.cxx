@@ -15,7 +15,7 @@ namespace
 {
 
 using Surface = itk::TriangleSurface;
-using Sheets = std::vector<std::uint32_t>;
+using Sheets = itk::BulkVector<std::uint32_t>;
 
 constexpr std::uint32_t Length = 12;
 constexpr double Pi = 3.14159265358979323846;

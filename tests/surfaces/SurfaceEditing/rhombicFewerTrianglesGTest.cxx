@@ -53,7 +53,7 @@ MakeBall(double radius, unsigned int level)
     colours.push_back({ static_cast<std::uint8_t>(point[2] + 128.0f), 0, 0 });
   }
   ball.pointValues = std::make_shared<rhombic::PointValues>(values);
-  ball.pointColours = std::make_shared<std::vector<std::array<std::uint8_t, 3>>>(colours);
+  ball.pointColours = std::make_shared<rhombic::PointColours>(colours.begin(), colours.end());
   return ball;
 }
 

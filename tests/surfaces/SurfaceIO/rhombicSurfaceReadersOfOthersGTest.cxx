@@ -177,7 +177,7 @@ MakeNumberedScene()
     }
     values.values.front() = std::numeric_limits<float>::quiet_NaN();
     surface.pointValues = std::make_shared<rhombic::PointValues>(values);
-    surface.pointColours = std::make_shared<std::vector<std::array<std::uint8_t, 3>>>(colours);
+    surface.pointColours = std::make_shared<rhombic::PointColours>(colours.begin(), colours.end());
   }
   return scene;
 }

@@ -12,7 +12,7 @@ namespace
 {
 
 using namespace itk::example;
-using Ids = std::vector<std::uint32_t>;
+using Ids = itk::BulkVector<std::uint32_t>;
 
 std::optional<Ids>
 FindSuspects(const itk::TriangleSurface & surface)

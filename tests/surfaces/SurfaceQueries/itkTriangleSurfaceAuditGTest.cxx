@@ -160,7 +160,7 @@ TEST(TriangleSurfaceIntersections, OfJoinedTrianglesAreThoseOfAllPairs)
     const auto intersections = Intersect(*surface);
     EXPECT_EQ(intersections.crossingPairs, crossing) << seed;
     EXPECT_EQ(intersections.touchingPairs, touching) << seed;
-    const std::vector<std::uint32_t> ofPairs(found.begin(), found.end());
+    const itk::BulkVector<std::uint32_t> ofPairs(found.begin(), found.end());
     const itk::TrianglesOfPoints fans(*surface);
     EXPECT_EQ(FindCrossingTriangles(itk::TriangleTree(*surface), fans), ofPairs);
     if (const auto sizes = itk::TriangleSizes::Find(*surface))

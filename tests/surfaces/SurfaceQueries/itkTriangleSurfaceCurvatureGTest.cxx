@@ -18,7 +18,7 @@ template <typename TFunction>
 double
 ErrorOf(const itk::TriangleSurface & surface, double radius, const TFunction & truth)
 {
-  const std::vector<float> found = ComputeTriangleSurfaceMeanCurvature(surface, radius);
+  const itk::BulkVector<float> found = ComputeTriangleSurfaceMeanCurvature(surface, radius);
   double sum = 0.0;
   for (std::size_t n = 0; n < found.size(); ++n)
   {

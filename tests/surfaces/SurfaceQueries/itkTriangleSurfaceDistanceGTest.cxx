@@ -134,7 +134,7 @@ TEST(TriangleSurfaceDistance, SignsAreThoseOfTheWinding)
   Append(*ball, *MakeSphere(5.0, 4), { 3.0f, 0.0f, 0.0f }); // inside the first: still inside
   const auto points = Surface::New();
   points->GetPoints() = { { 0, 0, 9 }, { 0, 0, 12 }, { 3, 0, 0 }, { -20, 0, 0 } };
-  const std::vector<float> found = ComputeTriangleSurfaceSignedDistances(*points, TriangleTree(*ball));
+  const itk::BulkVector<float> found = ComputeTriangleSurfaceSignedDistances(*points, TriangleTree(*ball));
   EXPECT_NEAR(found[0], -1.0f, 0.01f);
   EXPECT_NEAR(found[1], 2.0f, 0.01f);
   EXPECT_NEAR(found[2], -5.0f, 0.03f);

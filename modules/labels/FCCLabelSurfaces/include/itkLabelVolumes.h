@@ -27,7 +27,7 @@ public:
 
   /** Measures some triangles anew, whose points have moved. */
   void
-  Update(const LabelWalls & walls, const std::vector<std::uint32_t> & triangles);
+  Update(const LabelWalls & walls, const BulkVector<std::uint32_t> & triangles);
 
   /** By label, in mm^3; that of label 0 is negative. */
   const std::vector<double> &

@@ -62,7 +62,7 @@ LabelSizes::LabelSizes(const LabelWalls & walls, std::size_t labels)
 }
 
 void
-LabelSizes::Update(const LabelWalls & walls, const std::vector<std::uint32_t> & triangles)
+LabelSizes::Update(const LabelWalls & walls, const BulkVector<std::uint32_t> & triangles)
 {
   this->Measure(walls, triangles.size(), [&triangles](std::size_t n) { return triangles[n]; });
 }

@@ -22,10 +22,10 @@ constexpr double ShareForVolumes = 0.1;            // of the largest error of si
 constexpr TriangleLimits WallLimits{ -0.9, 0.01 }; // the sides of a pit turn by much more than a right angle
 
 /** The points that layers move, ascending: those of walls between labels of different layers. Fixed points stay. */
-std::vector<std::uint32_t>
+BulkVector<std::uint32_t>
 FindPointsToMove(const LabelWalls & walls, const std::vector<double> & layers, const PointStrata & strata)
 {
-  std::vector<std::uint8_t> isMoved(walls.GetNumberOfPoints());
+  BulkVector<std::uint8_t> isMoved(walls.GetNumberOfPoints(), 0);
   for (std::size_t id = 0; id < walls.GetNumberOfTriangles(); ++id)
   {
     const auto & [front, back] = walls.GetTriangleLabels()[id];
@@ -158,7 +158,7 @@ SimplifyLabelWalls(LabelWalls & walls,
   std::vector<LabelWalls::LabelPairType> pairs(labels.begin(), labels.end());
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  std::vector<std::uint32_t> sheets;
+  BulkVector<std::uint32_t> sheets;
   sheets.reserve(labels.size());
   for (const LabelWalls::LabelPairType & pair : labels)
   {

@@ -36,7 +36,7 @@ constexpr double Degrees = 57.29577951308232; // in a radian
 
 /** An array of VTK in the memory of colours, which must outlive it. */
 vtkSmartPointer<vtkUnsignedCharArray>
-ShareColours(const std::vector<std::array<std::uint8_t, 3>> & colours)
+ShareColours(const PointColours & colours)
 {
   auto array = vtkSmartPointer<vtkUnsignedCharArray>::New();
   array->SetNumberOfComponents(3);

@@ -86,7 +86,7 @@ SimplifyTriangleSurface(TriangleSurface & surface,
  * triangles; else as above, but edges and points where sheets meet need not be manifold. */
 TriangleSurfaceSimplificationReport
 SimplifyTriangleSurface(TriangleSurface & surface,
-                        std::vector<std::uint32_t> & sheets,
+                        BulkVector<std::uint32_t> & sheets,
                         const TriangleSurfaceSimplificationSettings & settings,
                         const rhombic::ProgressFunction & report = {});
 

@@ -88,11 +88,11 @@ BoundedMoves::IsSpoilt(std::uint32_t triangle) const
            lengthAfter >= m_Limits.leastShareOfArea * lengthBefore);
 }
 
-std::vector<std::uint32_t>
+BulkVector<std::uint32_t>
 BoundedMoves::FindSpoilt() const
 {
   return CollectIds(
-    m_StartAreas.size(), MovedBlock, [this](std::size_t begin, std::size_t end, std::vector<std::uint32_t> & spoilt) {
+    m_StartAreas.size(), MovedBlock, [this](std::size_t begin, std::size_t end, BulkVector<std::uint32_t> & spoilt) {
       for (auto id = static_cast<std::uint32_t>(begin); id < end; ++id)
       {
         if (this->IsSpoilt(id))
@@ -104,13 +104,13 @@ BoundedMoves::FindSpoilt() const
 }
 
 /** The spoilt triangles of some, in their order. */
-std::vector<std::uint32_t>
-BoundedMoves::FindSpoilt(const std::vector<std::uint32_t> & triangles) const
+BulkVector<std::uint32_t>
+BoundedMoves::FindSpoilt(const BulkVector<std::uint32_t> & triangles) const
 {
-  std::vector<std::uint8_t> areSpoilt(triangles.size());
+  BulkVector<std::uint8_t> areSpoilt(triangles.size());
   rhombic::ForEachInBlocks(
     triangles.size(), MovedBlock, [&](SizeValueType n) { areSpoilt[n] = this->IsSpoilt(triangles[n]) ? 1 : 0; });
-  std::vector<std::uint32_t> spoilt;
+  BulkVector<std::uint32_t> spoilt;
   for (std::size_t n = 0; n < triangles.size(); ++n)
   {
     if (areSpoilt[n] != 0)
@@ -124,11 +124,11 @@ BoundedMoves::FindSpoilt(const std::vector<std::uint32_t> & triangles) const
 /** Puts the next points of spoilt triangles back to the surface's points. That may spoil other triangles at these
  * points: puts them back, too. */
 void
-BoundedMoves::PutBackSpoilt(std::vector<std::uint32_t> spoilt)
+BoundedMoves::PutBackSpoilt(BulkVector<std::uint32_t> spoilt)
 {
   while (!spoilt.empty())
   {
-    std::vector<std::uint32_t> next;
+    BulkVector<std::uint32_t> next;
     for (const std::uint32_t point : this->FindCorners(spoilt))
     {
       if (m_Next[point] != m_Surface.GetPoints()[point])
@@ -146,7 +146,7 @@ BoundedMoves::PutBackSpoilt(std::vector<std::uint32_t> spoilt)
 
 /** Copies the positions of the corners of some triangles. */
 void
-BoundedMoves::CopyCorners(const std::vector<std::uint32_t> & triangles, const Points & from, Points & to) const
+BoundedMoves::CopyCorners(const BulkVector<std::uint32_t> & triangles, const Points & from, Points & to) const
 {
   for (const std::uint32_t id : triangles)
   {
@@ -157,10 +157,10 @@ BoundedMoves::CopyCorners(const std::vector<std::uint32_t> & triangles, const Po
   }
 }
 
-std::vector<std::uint32_t>
-BoundedMoves::FindTrianglesAt(const std::vector<std::uint32_t> & points) const
+BulkVector<std::uint32_t>
+BoundedMoves::FindTrianglesAt(const BulkVector<std::uint32_t> & points) const
 {
-  std::vector<std::uint8_t> isAtPoint(m_StartAreas.size());
+  BulkVector<std::uint8_t> isAtPoint(m_StartAreas.size(), 0);
   for (const std::uint32_t point : points)
   {
     m_Fans.VisitTriangles(point, [&isAtPoint](std::uint32_t id) { isAtPoint[id] = 1; });
@@ -169,10 +169,10 @@ BoundedMoves::FindTrianglesAt(const std::vector<std::uint32_t> & points) const
 }
 
 /** The points of some triangles, ascending. */
-std::vector<std::uint32_t>
-BoundedMoves::FindCorners(const std::vector<std::uint32_t> & triangles) const
+BulkVector<std::uint32_t>
+BoundedMoves::FindCorners(const BulkVector<std::uint32_t> & triangles) const
 {
-  std::vector<std::uint32_t> corners;
+  BulkVector<std::uint32_t> corners;
   for (const std::uint32_t id : triangles)
   {
     const auto & triangle = std::as_const(m_Surface).GetTriangles()[id];
@@ -192,13 +192,13 @@ BoundedMoves::BeginRetreats()
 
 /** Moves the next points of some triangles a quarter of their way back towards the start, and so on until no triangle
  * is spoilt. Neighbours differ by one quarter at most. Returns the triangles at points that have moved, ascending. */
-std::vector<std::uint32_t>
-BoundedMoves::Retreat(std::vector<std::uint32_t> triangles)
+BulkVector<std::uint32_t>
+BoundedMoves::Retreat(BulkVector<std::uint32_t> triangles)
 {
-  std::vector<std::uint32_t> changed;
+  BulkVector<std::uint32_t> changed;
   while (!triangles.empty())
   {
-    std::vector<std::uint32_t> points = this->FindCorners(triangles);
+    BulkVector<std::uint32_t> points = this->FindCorners(triangles);
     points.erase(std::remove_if(points.begin(),
                                 points.end(),
                                 [this](std::uint32_t point) { return m_Retreats[point] == MostRetreats; }),
@@ -241,11 +241,11 @@ BoundedMoves::Retreat(std::vector<std::uint32_t> triangles)
 }
 
 /** The triangles of which points are no longer where the tree has them, ascending. */
-std::vector<std::uint32_t>
+BulkVector<std::uint32_t>
 BoundedMoves::FindMovedInTree() const
 {
   const Points & points = m_Surface.GetPoints();
-  std::vector<std::uint32_t> moved;
+  BulkVector<std::uint32_t> moved;
   for (std::uint32_t point = 0; point < points.size(); ++point)
   {
     if (points[point] != m_InTree[point])
@@ -258,7 +258,7 @@ BoundedMoves::FindMovedInTree() const
 
 /** Makes the tree that of the surface; some triangles have moved. */
 void
-BoundedMoves::UpdateTree(const std::vector<std::uint32_t> & triangles)
+BoundedMoves::UpdateTree(const BulkVector<std::uint32_t> & triangles)
 {
   constexpr std::size_t many = 128; // of so many triangles, one
   if (triangles.size() > m_StartAreas.size() / many)
@@ -281,7 +281,7 @@ BoundedMoves::PutBackMeeting(rhombic::StagedProgress & progress, double stageEnd
 {
   m_Next = m_Surface.GetPoints();
   this->BeginRetreats();
-  std::vector<std::uint32_t> meeting;
+  BulkVector<std::uint32_t> meeting;
   if (m_Tree)
   {
     const auto moved = this->FindMovedInTree(); // all others have been put back if they meet

@@ -52,7 +52,7 @@ struct Shape
 class LocalIds
 {
 public:
-  explicit LocalIds(const std::vector<TriangleType> & triangles)
+  explicit LocalIds(const std::pmr::vector<TriangleType> & triangles)
   {
     std::size_t size = 16;
     while (size < 3 * triangles.size()) // closed surfaces have a sixth as many points
@@ -85,8 +85,8 @@ public:
     return m_Ids;
   }
 
-  std::vector<TriangleType>
-  ToLocal(std::vector<TriangleType> triangles)
+  std::pmr::vector<TriangleType>
+  ToLocal(std::pmr::vector<TriangleType> triangles)
   {
     for (TriangleType & triangle : triangles)
     {
@@ -199,7 +199,7 @@ public:
   }
 
   void
-  Replay(const CollapseLog & log, const std::vector<std::uint16_t> & mostChanges)
+  Replay(const CollapseLog & log, const std::pmr::vector<std::uint16_t> & mostChanges)
   {
     m_IsOther.assign(m_Ids.size(), 0);
     for (const EdgeToCollapse & edge : log.edges)
@@ -300,7 +300,7 @@ private:
   }
 
   void
-  AddWitnesses(const std::vector<Witness> & witnesses)
+  AddWitnesses(const std::pmr::vector<Witness> & witnesses)
   {
     m_FirstWitness.assign(m_Triangles.size(), None);
     for (const Witness & witness : witnesses)
@@ -792,7 +792,7 @@ private:
   }
 
   bool
-  MayChange(const std::vector<std::uint16_t> & mostChanges) const
+  MayChange(const std::pmr::vector<std::uint16_t> & mostChanges) const
   {
     return std::all_of(m_Changed.begin(), m_Changed.end(), [&](const FanTriangle & fan) {
       return m_Changes[fan.id] < mostChanges[fan.id];
@@ -880,8 +880,8 @@ private:
   std::priority_queue<Candidate> m_Candidates;
 
   // By triangle.
-  std::vector<TriangleType> m_Triangles;
-  const std::vector<std::uint32_t> m_Sheets;
+  std::pmr::vector<TriangleType> m_Triangles;
+  const std::pmr::vector<std::uint32_t> m_Sheets;
   std::vector<std::uint8_t> m_Remains;
   std::size_t m_Remaining; ///< triangles
   std::vector<std::uint16_t> m_Changes;
@@ -939,7 +939,7 @@ CollapsedPart
 ReplayCollapses(const SurfaceOfParts & whole,
                 const SurfacePart & part,
                 const CollapseLog & log,
-                const std::vector<std::uint16_t> & mostChanges)
+                const std::pmr::vector<std::uint16_t> & mostChanges)
 {
   EdgeCollapse collapse(whole, part, LocalIds(part.triangles));
   collapse.Replay(log, mostChanges);

@@ -4,6 +4,8 @@
 #include "detail/itkPositionArithmetic.h"
 #include "detail/itkPointStrata.h"
 
+#include <memory_resource>
+
 namespace itk
 {
 
@@ -17,17 +19,17 @@ struct Witness
 /** Some triangles of a surface with all their witnesses. */
 struct SurfacePart
 {
-  std::vector<TriangleSurface::TriangleType> triangles;
-  std::vector<std::uint32_t> sheets; ///< the number of each triangle's sheet
-  std::vector<Witness> witnesses;
+  std::pmr::vector<TriangleSurface::TriangleType> triangles;
+  std::pmr::vector<std::uint32_t> sheets; ///< the number of each triangle's sheet
+  std::pmr::vector<Witness> witnesses;
 };
 
 /** Data of each point of a surface. */
 struct SurfacePoints
 {
-  std::vector<Stratum> strata;
-  std::vector<std::uint32_t> triangles; ///< the number of triangles at the point
-  std::vector<std::uint8_t> isHeld;     ///< 1 if the point must stay
+  BulkVector<Stratum> strata;
+  BulkVector<std::uint32_t> triangles; ///< the number of triangles at the point
+  BulkVector<std::uint8_t> isHeld;     ///< 1 if the point must stay
 };
 
 /** The surface before simplification, and the limit of the distance from it: new points must be near it, and its points
@@ -61,8 +63,8 @@ struct EdgeToCollapse
 /** The edges that collapse, one after the other. */
 struct CollapseLog
 {
-  std::vector<EdgeToCollapse> edges;
-  std::vector<std::uint16_t> covering; ///< for each witness that moves, which of the changed triangles then covers it
+  std::pmr::vector<EdgeToCollapse> edges;
+  std::pmr::vector<std::uint16_t> covering; ///< for each witness that moves, which of the changed triangles then covers it
   bool wasHeldBack = false;            ///< whether others stayed because of the error or the distance from the original
 };
 
@@ -78,10 +80,10 @@ struct MovedPoint
 /** A part after its edges have collapsed. */
 struct CollapsedPart
 {
-  SurfacePart part;                   ///< first the triangles that have not changed, then the new triangles
-  std::vector<std::uint32_t> ids;     ///< for each triangle, its index before
-  std::vector<std::uint16_t> changes; ///< for each triangle, how often a corner of it moved
-  std::vector<MovedPoint> movedPoints;
+  SurfacePart part;                        ///< first the triangles that have not changed, then the new triangles
+  std::pmr::vector<std::uint32_t> ids;     ///< for each triangle, its index before
+  std::pmr::vector<std::uint16_t> changes; ///< for each triangle, how often a corner of it moved
+  std::pmr::vector<MovedPoint> movedPoints;
 };
 
 /** Finds edges of some triangles of a surface to collapse, the edge of least error first, and \a collapsed, the part
@@ -113,7 +115,7 @@ CollapsedPart
 ReplayCollapses(const SurfaceOfParts & whole,
                 const SurfacePart & part,
                 const CollapseLog & log,
-                const std::vector<std::uint16_t> & mostChanges);
+                const std::pmr::vector<std::uint16_t> & mostChanges);
 
 } // namespace itk
 

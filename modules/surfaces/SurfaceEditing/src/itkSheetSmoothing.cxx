@@ -127,6 +127,12 @@ SheetNeighbours::SheetNeighbours(const TrianglesOfPoints & fans, const PointStra
   : m_Begin(1, 0)
 {
   m_Begin.reserve(strata.strata.size() + 1);
+  std::size_t size = 2 * strata.curves.size();
+  for (std::size_t point = 0; point < strata.strata.size(); ++point)
+  {
+    size += strata.strata[point] == Stratum::Sheet ? fans.GetNumberOfTriangles(point) : 0;
+  }
+  m_Ids.reserve(size);
   auto curve = strata.curves.begin();
   for (std::uint32_t point = 0; point < strata.strata.size(); ++point)
   {

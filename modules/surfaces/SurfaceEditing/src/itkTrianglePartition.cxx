@@ -45,7 +45,7 @@ Split(CentredTriangles & triangles, const TriangleRange & range, double cut)
 std::vector<TriangleRange>
 SortIntoRanges(const TriangleSurface::PointsContainer & points,
                TriangleSurface::TrianglesContainer & triangles,
-               std::vector<std::uint32_t> & ids,
+               BulkVector<std::uint32_t> & ids,
                std::size_t mostTriangles,
                double cut)
 {

@@ -2,13 +2,16 @@
 
 #include "detail/itkPositionArithmetic.h"
 #include "detail/itkTrianglesOfPoints.h"
+#include "rhombicBulkMemory.h"
 #include "rhombicForEachBlock.h"
 #include "itkMath.h"
 
 #include <meshoptimizer.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
+#include <new>
 
 namespace itk
 {
@@ -23,6 +26,19 @@ constexpr double AngleOfNone = 4.0; // degrees
 constexpr double AngleOfAll = 8.0;  // degrees
 constexpr double RatioOfNone = 0.6;
 constexpr double RatioOfAll = 0.9;
+
+/** Working memory of meshoptimizer. */
+void *
+AllocateForOptimizer(std::size_t bytes)
+{
+  constexpr std::size_t smallestBulk = std::size_t{ 1 } << 22;
+  void * const block = bytes < smallestBulk ? std::malloc(std::max<std::size_t>(bytes, 1)) : rhombic::AllocateBulk(bytes);
+  return block != nullptr ? block : throw std::bad_alloc();
+}
+
+/** Set once, before anything can be allocated; in temporary files then, where a surface is. */
+[[maybe_unused]] const bool IsOptimizerInBulk =
+  (meshopt_setAllocator(AllocateForOptimizer, rhombic::FreeBulk), true);
 
 /** Quantities that are averaged over the neighbourhood of a point. */
 struct NormalSample
@@ -95,7 +111,7 @@ ShareOf(const NormalSample & sum)
 
 template <typename TContainer>
 void
-Reorder(TContainer & container, const std::vector<unsigned int> & newIds, std::size_t newSize)
+Reorder(TContainer & container, const BulkVector<unsigned int> & newIds, std::size_t newSize)
 {
   TContainer ordered(newSize);
   meshopt_remapVertexBuffer(
@@ -152,7 +168,7 @@ OptimizeTriangleSurfaceForRendering(TriangleSurface & surface)
   unsigned int * const indices = triangles.front().data();
   meshopt_optimizeVertexCache(indices, surface.GetTriangles().front().data(), numberOfIndices, numberOfPoints);
 
-  std::vector<unsigned int> newIds(numberOfPoints);
+  BulkVector<unsigned int> newIds(numberOfPoints);
   const std::size_t used = meshopt_optimizeVertexFetchRemap(newIds.data(), indices, numberOfIndices, numberOfPoints);
   meshopt_remapIndexBuffer(indices, indices, numberOfIndices, newIds.data());
   if (surface.HasNormals())

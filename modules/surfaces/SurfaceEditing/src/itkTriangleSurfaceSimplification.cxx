@@ -2,6 +2,7 @@
 
 #include "detail/itkPositionArithmetic.h"
 #include "itkTriangleSurfaceIntersections.h"
+#include "itkBulkResource.h"
 #include "itkEdgeCollapse.h"
 #include "rhombicForEachBlock.h"
 #include "itkTrianglePartition.h"
@@ -25,8 +26,8 @@ using PointId = std::uint32_t;
 using TriangleId = std::uint32_t;
 using VersionId = std::uint32_t; ///< of a triangle as it is between two changes
 using Box = TriangleTree::Box;
-using Flags = std::vector<std::uint8_t>;
-using Sheets = std::vector<std::uint32_t>; ///< for each triangle, the number of its sheet
+using Flags = BulkVector<std::uint8_t>;
+using Sheets = BulkVector<std::uint32_t>; ///< for each triangle, the number of its sheet
 
 constexpr std::size_t PatchSize = 4096;
 constexpr std::size_t SimplifiedBlock = 1024;
@@ -84,20 +85,43 @@ struct Patch
 {
   SurfacePart before;
   CollapseLog log;
-  std::vector<std::uint16_t> mostChanges; ///< for each triangle before, how often a corner of it may move
+  std::pmr::vector<std::uint16_t> mostChanges; ///< for each triangle before, how often a corner of it may move
   CollapsedPart after;
-  std::vector<std::uint16_t> checkedChanges; ///< for each triangle before, how often a corner of it had moved at the
-                                             ///< last check; Absent if the triangle had vanished
-  std::vector<VersionId> versions;           ///< for each triangle before, its version at the last check
+  std::pmr::vector<std::uint16_t> checkedChanges; ///< for each triangle before, how often a corner of it had moved at
+                                                  ///< the last check; Absent if the triangle had vanished
+  std::pmr::vector<VersionId> versions;           ///< for each triangle before, its version at the last check
+
+  /** The memory of all arrays of the patch, which is copied into. */
+  explicit Patch(std::pmr::memory_resource * memory)
+    : before{ PartIn(memory) }
+    , log{ decltype(log.edges)(memory), decltype(log.covering)(memory) }
+    , mostChanges(memory)
+    , after{ PartIn(memory),
+             decltype(after.ids)(memory),
+             decltype(after.changes)(memory),
+             decltype(after.movedPoints)(memory) }
+    , checkedChanges(memory)
+    , versions(memory)
+  {}
+
+private:
+  static SurfacePart
+  PartIn(std::pmr::memory_resource * memory)
+  {
+    return { decltype(SurfacePart::triangles)(memory),
+             decltype(SurfacePart::sheets)(memory),
+             decltype(SurfacePart::witnesses)(memory) };
+  }
 };
 
 Patch
 MakePatch(const TriangleSurface & surface,
           const Sheets & sheets,
-          const std::vector<VersionId> & versions,
-          const TriangleRange & range)
+          const BulkVector<VersionId> & versions,
+          const TriangleRange & range,
+          std::pmr::memory_resource * memory)
 {
-  Patch patch;
+  Patch patch(memory);
   const auto * const triangles = surface.GetTriangles().data();
   patch.before.triangles.assign(triangles + range.begin, triangles + range.end);
   patch.before.sheets.assign(sheets.data() + range.begin, sheets.data() + range.end);
@@ -111,13 +135,18 @@ MakePatch(const TriangleSurface & surface,
 std::vector<TriangleTree>
 TreesOfSheets(const TriangleSurface & surface, const Sheets & sheets, std::size_t numberOfSheets)
 {
-  std::vector<std::vector<TriangleId>> triangles(numberOfSheets);
+  std::vector<TriangleTree> trees;
+  trees.reserve(numberOfSheets);
+  if (numberOfSheets == 1)
+  {
+    trees.emplace_back(surface);
+    return trees;
+  }
+  std::vector<BulkVector<TriangleId>> triangles(numberOfSheets);
   for (TriangleId id = 0; id < sheets.size(); ++id)
   {
     triangles[sheets[id]].push_back(id);
   }
-  std::vector<TriangleTree> trees;
-  trees.reserve(numberOfSheets);
   for (auto & sheet : triangles)
   {
     trees.emplace_back(surface, std::move(sheet));
@@ -292,6 +321,7 @@ private:
   {
     this->SwapWithBefore();
     m_Points.isHeld = m_IsHeld;
+    m_Memory.emplace();
     this->CutIntoPatches(cut);
     const double shareOfPatch = this->FindShareOfPatch();
     rhombic::ForEachInBlocks(m_Patches.size(), 1, [&](std::size_t id) {
@@ -313,6 +343,7 @@ private:
       this->SwapWithBefore();
     }
     m_Patches.clear();
+    m_Memory.reset();
     return isSound;
   }
 
@@ -328,7 +359,7 @@ private:
   void
   CutIntoPatches(double cut)
   {
-    std::vector<TriangleId> oldIds(m_Before->GetNumberOfTriangles());
+    BulkVector<TriangleId> oldIds(m_Before->GetNumberOfTriangles());
     std::iota(oldIds.begin(), oldIds.end(), 0u);
     const auto ranges = SortIntoRanges(m_Before->GetPoints(), m_Before->GetTriangles(), oldIds, PatchSize, cut);
     struct TriangleOfPatch
@@ -337,13 +368,13 @@ private:
       TriangleId triangle;
     };
     const Sheets sheets = std::move(m_SheetsBefore);
-    const std::vector<VersionId> versions = std::move(m_Versions);
-    m_SheetsBefore.clear();
-    m_Versions.clear();
-    for (const TriangleId id : oldIds)
+    const BulkVector<VersionId> versions = std::move(m_Versions);
+    m_SheetsBefore.resize(oldIds.size());
+    m_Versions.resize(oldIds.size());
+    for (std::size_t n = 0; n < oldIds.size(); ++n)
     {
-      m_SheetsBefore.push_back(sheets[id]);
-      m_Versions.push_back(versions[id]);
+      m_SheetsBefore[n] = sheets[oldIds[n]];
+      m_Versions[n] = versions[oldIds[n]];
     }
     m_Points.triangles.assign(m_Before->GetNumberOfPoints(), 0);
     for (const auto & triangle : m_Before->GetTriangles())
@@ -353,15 +384,23 @@ private:
         ++m_Points.triangles[point];
       }
     }
-    std::vector<TriangleOfPatch> newIds(oldIds.size());
-    m_Patches.clear();
+    BulkVector<TriangleOfPatch> newIds(oldIds.size());
     for (const TriangleRange & range : ranges)
     {
       for (std::size_t id = range.begin; id < range.end; ++id)
       {
         newIds[oldIds[id]] = { static_cast<PatchId>(m_Patches.size()), static_cast<TriangleId>(id - range.begin) };
       }
-      m_Patches.push_back(MakePatch(*m_Before, m_SheetsBefore, m_Versions, range));
+      m_Patches.push_back(MakePatch(*m_Before, m_SheetsBefore, m_Versions, range, &*m_Memory));
+    }
+    std::vector<std::size_t> witnesses(m_Patches.size(), 0);
+    for (const TriangleId triangle : m_WitnessTriangles)
+    {
+      ++witnesses[newIds[triangle].patch];
+    }
+    for (std::size_t patch = 0; patch < m_Patches.size(); ++patch)
+    {
+      m_Patches[patch].before.witnesses.reserve(witnesses[patch]);
     }
     for (PointId point = 0; point < m_WitnessTriangles.size(); ++point)
     {
@@ -392,7 +431,7 @@ private:
   void
   AimAtTarget()
   {
-    std::vector<double> errors;
+    BulkVector<double> errors;
     std::size_t removed = 0;
     for (const Patch & patch : m_Patches)
     {
@@ -481,6 +520,7 @@ private:
     m_FirstCovered.clear();
     m_CoveredPoints.clear();
     std::fill(m_IsPresent.begin(), m_IsPresent.end(), std::uint8_t{ 0 });
+    std::vector<std::uint16_t> changes;
     for (PatchId id = 0; id < m_Patches.size(); ++id)
     {
       Patch & patch = m_Patches[id];
@@ -497,7 +537,7 @@ private:
       }
       triangles.insert(triangles.end(), after.part.triangles.begin(), after.part.triangles.end());
       m_Sheets.insert(m_Sheets.end(), after.part.sheets.begin(), after.part.sheets.end());
-      std::vector<std::uint16_t> changes(patch.checkedChanges.size(), Absent);
+      changes.assign(patch.checkedChanges.size(), Absent);
       for (std::size_t n = 0; n < after.ids.size(); ++n)
       {
         const TriangleId before = after.ids[n];
@@ -512,7 +552,7 @@ private:
         m_IsPresent[patch.versions[before]] = 1;
         m_Versions.push_back(patch.versions[before]);
       }
-      patch.checkedChanges.swap(changes);
+      std::copy(changes.begin(), changes.end(), patch.checkedChanges.begin());
       m_Begin.push_back(static_cast<TriangleId>(triangles.size()));
       for (const MovedPoint & moved : after.movedPoints)
       {
@@ -574,7 +614,7 @@ private:
   void
   FindContacts(const TriangleTree & state, Flags & isBad) const
   {
-    std::vector<TriangleId> fresh;
+    BulkVector<TriangleId> fresh;
     for (TriangleId id = 0; id < isBad.size(); ++id)
     {
       if (m_IsFresh[id] != 0)
@@ -770,21 +810,22 @@ private:
   Flags m_IsHeld; ///< for each point of m_State, whether it stays, because triangles there were bad
 
   // Empty if the distance has no limit.
-  std::vector<TriangleId> m_NearPoints; ///< for each point of m_State, a triangle of the original nearby
-  std::vector<TriangleId>
-    m_WitnessTriangles;                      ///< for each point of the original, the triangle of m_State that covers it
-  std::vector<PointId> m_CoveredPoints;      ///< points of the original, by the triangle that covers them
-  std::vector<std::uint32_t> m_FirstCovered; ///< for each triangle of m_State, its first of these, and the end
+  BulkVector<TriangleId> m_NearPoints; ///< for each point of m_State, a triangle of the original nearby
+  BulkVector<TriangleId>
+    m_WitnessTriangles;                     ///< for each point of the original, the triangle of m_State that covers it
+  BulkVector<PointId> m_CoveredPoints;      ///< points of the original, by the triangle that covers them
+  BulkVector<std::uint32_t> m_FirstCovered; ///< for each triangle of m_State, its first of these, and the end
   Flags m_IsCovered; ///< for each triangle of the original, whether the triangles that cover its corners cover it
 
-  std::vector<ProximityProof> m_Proofs; ///< for each triangle of the original that is not covered: by versions
-  std::vector<VersionId> m_Versions;    ///< of the triangles of m_State
-  Flags m_IsPresent;                    ///< for each version, whether m_State has it
+  BulkVector<ProximityProof> m_Proofs; ///< for each triangle of the original that is not covered: by versions
+  BulkVector<VersionId> m_Versions;    ///< of the triangles of m_State
+  Flags m_IsPresent;                   ///< for each version, whether m_State has it
 
   // The current step.
   TriangleSurface::Pointer m_Before;
   Sheets m_SheetsBefore;
-  SurfacePoints m_Points; ///< before the step
+  SurfacePoints m_Points;               ///< before the step
+  std::optional<BulkResource> m_Memory; ///< of the patches
   std::vector<Patch> m_Patches;
   std::vector<TriangleId> m_Begin; ///< first triangle of each patch in m_State, and the end of the last
   Flags m_IsNew;                   ///< for each triangle of m_State, whether it was not there before the step
@@ -882,7 +923,7 @@ SimplifyTriangleSurface(TriangleSurface & surface,
 
 TriangleSurfaceSimplificationReport
 SimplifyTriangleSurface(TriangleSurface & surface,
-                        std::vector<std::uint32_t> & sheets,
+                        BulkVector<std::uint32_t> & sheets,
                         const TriangleSurfaceSimplificationSettings & settings,
                         const rhombic::ProgressFunction & report)
 {

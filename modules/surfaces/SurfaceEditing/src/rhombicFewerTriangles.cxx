@@ -88,8 +88,7 @@ WithPoints(SceneSurface surface, const Points & points, Triangles triangles)
   surface.surface = fewer;
   if (surface.pointColours)
   {
-    surface.pointColours =
-      std::make_shared<const std::vector<std::array<std::uint8_t, 3>>>(Gather(*surface.pointColours, points));
+    surface.pointColours = std::make_shared<const PointColours>(Gather(*surface.pointColours, points));
   }
   if (surface.pointValues)
   {

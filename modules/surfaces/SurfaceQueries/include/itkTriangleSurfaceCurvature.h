@@ -20,7 +20,7 @@ namespace itk
  *
  * The same for any number of threads. Time O(n m) for m points within the radius. Throws ExceptionObject if a triangle
  * refers to a missing point. */
-std::vector<float>
+BulkVector<float>
 ComputeTriangleSurfaceMeanCurvature(const TriangleSurface & surface, double radius);
 
 } // namespace itk

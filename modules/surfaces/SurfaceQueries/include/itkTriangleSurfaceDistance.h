@@ -146,7 +146,7 @@ IsInsideTriangleSurface(const TriangleTree & tree, const TriangleTree::PositionT
 
 /** For each point of \a surface the distance to the closed surface \a other in mm: above 0 outside of it, below 0
  * inside (IsInsideTriangleSurface()). */
-std::vector<float>
+BulkVector<float>
 ComputeTriangleSurfaceSignedDistances(const TriangleSurface & surface, const TriangleTree & other);
 
 } // namespace itk

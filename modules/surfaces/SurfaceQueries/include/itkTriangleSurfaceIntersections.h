@@ -52,7 +52,7 @@ FindTriangleSurfaceSelfIntersections(const TriangleTree & tree,
  * \param least Touching to find triangles that only touch others, too
  * \param progress if not null, its next stage is the search
  * \param stageEnd share of the whole that is done after the stage */
-std::vector<std::uint32_t>
+BulkVector<std::uint32_t>
 FindCrossingTriangles(const TriangleTree & tree,
                       const TrianglesOfPoints & fans,
                       TriangleContact least = TriangleContact::Crossing,
@@ -65,14 +65,14 @@ BulkVector<std::uint8_t>
 FindUnfoldedPoints(const TriangleSurface & surface, const TrianglesOfPoints & fans);
 
 /** The triangles of a grid that cross others or are duplicates, ascending: half the time of the same with a tree. */
-std::vector<std::uint32_t>
+BulkVector<std::uint32_t>
 FindCrossingTriangles(const TriangleGrid & grid, rhombic::StagedProgress & progress, double stageEnd);
 
 /** The triangles of \a candidates that cross any others, and these others. */
-std::vector<std::uint32_t>
+BulkVector<std::uint32_t>
 FindCrossingTriangles(const TriangleTree & tree,
                       const TrianglesOfPoints & fans,
-                      const std::vector<std::uint32_t> & candidates,
+                      const BulkVector<std::uint32_t> & candidates,
                       TriangleContact least = TriangleContact::Crossing);
 
 /** For a surface whose points lie on the edges of an FCC lattice's tetrahedra, as mode Tetrahedra and Fine of
@@ -93,7 +93,7 @@ struct CrossingCandidates
 
 /** The ids of the triangles that cross others or are duplicates, ascending, where the candidates are all that can.
  * Exact; far quicker than to test all triangles, if the list is short. */
-std::vector<std::uint32_t>
+BulkVector<std::uint32_t>
 FindCrossingTriangles(const TriangleSurface & surface,
                       const TrianglesOfPoints & fans,
                       const CrossingCandidates & candidates);

@@ -16,8 +16,8 @@ namespace itk
  * at the edge, too; the wall is thick there. So a thin wall is where both are small. */
 struct TriangleSurfaceThickness
 {
-  std::vector<float> balls; ///< diameters of the largest inscribed balls that touch the points
-  std::vector<float> walls; ///< lengths of the rays inwards along the normals, to where they leave the body
+  BulkVector<float> balls; ///< diameters of the largest inscribed balls that touch the points
+  BulkVector<float> walls; ///< lengths of the rays inwards along the normals, to where they leave the body
 };
 
 /** Measures thickness at the points of a closed surface.
@@ -38,12 +38,12 @@ TriangleSurfaceThickness
 ComputeTriangleSurfaceThickness(const TriangleSurface & surface, const TriangleTree & tree);
 
 /** The walls alone, which take less time. */
-std::vector<float>
+BulkVector<float>
 ComputeTriangleSurfaceWalls(const TriangleSurface & surface, const TriangleTree & tree);
 
 /** The unit normals of points, outwards: the means of their triangles' by area; {0, 0, 0} for a point without area. The
  * normals that a surface has may be gradients of a scan, which do not point out of parts as thin as its voxels. */
-std::vector<std::array<double, 3>>
+BulkVector<std::array<double, 3>>
 ComputeTriangleSurfacePointNormals(const TriangleSurface & surface);
 
 /** A connected part of a surface that is thinner than a limit. */

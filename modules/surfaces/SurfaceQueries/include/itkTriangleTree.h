@@ -53,7 +53,7 @@ public:
   explicit TriangleTree(const TriangleSurface & surface);
 
   /** A tree of some of the surface's triangles. */
-  TriangleTree(const TriangleSurface & surface, const std::vector<std::uint32_t> & triangles);
+  TriangleTree(const TriangleSurface & surface, BulkVector<std::uint32_t> triangles);
 
   /** Must be called when points of a triangle have moved, with its boxes before and after that: enlarges the boxes of
    * the tree that held the triangle, and a few around it. Queries are fast as long as the points are about where they

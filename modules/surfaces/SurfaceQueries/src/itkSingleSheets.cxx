@@ -200,14 +200,14 @@ public:
   }
 
   /** The triangles that meet other cells. */
-  std::vector<std::uint32_t>
+  BulkVector<std::uint32_t>
   FindOthers() const
   {
-    std::vector<std::uint32_t> others;
+    BulkVector<std::uint32_t> others;
     std::mutex mutex;
     rhombic::ForEachBlock(
       m_Surface.GetNumberOfTriangles(), TrianglesOfSheetBlock, [&](std::size_t begin, std::size_t end) {
-        std::vector<std::uint32_t> found;
+        BulkVector<std::uint32_t> found;
         for (std::size_t n = begin; n < end; ++n)
         {
           if (!m_Cells.AllOf(TriangleCells::BoxOf(m_Surface, n),
@@ -319,7 +319,7 @@ private:
   const TriangleSurface & m_Surface;
   const TriangleCells & m_Cells;
   std::vector<std::atomic<std::uint16_t>> m_Marks;
-  std::vector<std::uint8_t> m_AreSingle;
+  BulkVector<std::uint8_t> m_AreSingle;
   std::array<std::vector<float>, 3> m_Middles; ///< of the cells along each axis
   bool m_AreMiddlesInCells = true;
 };
@@ -342,7 +342,7 @@ IsSmooth(const TriangleSurface & surface)
 
 } // namespace
 
-std::optional<std::vector<std::uint32_t>>
+std::optional<BulkVector<std::uint32_t>>
 FindTrianglesOutsideSingleSheets(const TriangleSurface & surface, const TriangleSizes & sizes)
 {
   if (sizes.count < LeastForSheets || !IsSmooth(surface))
@@ -353,7 +353,7 @@ FindTrianglesOutsideSingleSheets(const TriangleSurface & surface, const Triangle
   SheetCells sheets(surface, cells);
   const std::uint64_t edges = sheets.MarkTriangles(0, sizes.count);
   return edges == 0 && sheets.FindSingle() >= LeastShare
-           ? std::optional<std::vector<std::uint32_t>>(sheets.FindOthers())
+           ? std::optional<BulkVector<std::uint32_t>>(sheets.FindOthers())
            : std::nullopt;
 }
 

@@ -106,24 +106,24 @@ TriangleRegion::Add(const PointBox & box)
   });
 }
 
-std::vector<std::uint32_t>
+BulkVector<std::uint32_t>
 TriangleRegion::FindTriangles(const TriangleSurface & surface) const
 {
   // The first corners of these triangles are in the region or in cells that touch it.
-  std::vector<std::uint8_t> isNear = m_IsIn;
+  BulkVector<std::uint8_t> isNear = m_IsIn;
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
     const std::size_t stride = m_Cells.GetStride(axis);
-    const std::vector<std::uint8_t> before = isNear;
+    const BulkVector<std::uint8_t> before = isNear;
     for (std::size_t cell = stride; cell + stride < before.size(); ++cell)
     {
       isNear[cell] |= before[cell - stride] | before[cell + stride]; // and some at the other end of the row
     }
   }
-  std::vector<std::uint32_t> triangles;
+  BulkVector<std::uint32_t> triangles;
   std::mutex mutex;
   rhombic::ForEachBlock(surface.GetNumberOfTriangles(), TrianglesOfCellBlock, [&](std::size_t begin, std::size_t end) {
-    std::vector<std::uint32_t> found;
+    BulkVector<std::uint32_t> found;
     for (std::size_t n = begin; n < end; ++n)
     {
       if (isNear[m_Cells.Find(surface.GetPoints()[surface.GetTriangles()[n][0]])] != 0 &&

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <mutex>
 
 namespace itk
 {
@@ -130,7 +132,7 @@ private:
   const TriangleSurface & m_Surface;
   const TrianglesOfPoints & m_Fans;
   double m_SquaredRadius;
-  std::vector<std::uint32_t> m_FoundFor; ///< the last point around which each point was found
+  BulkVector<std::uint32_t> m_FoundFor; ///< the last point around which each point was found
   std::vector<std::uint32_t> m_Found;
 };
 
@@ -148,14 +150,19 @@ TangentsOf(const PositionType & normal)
 
 } // namespace
 
-std::vector<float>
+BulkVector<float>
 ComputeTriangleSurfaceMeanCurvature(const TriangleSurface & surface, double radius)
 {
-  const std::vector<PositionType> normals = ComputeTriangleSurfacePointNormals(surface);
+  const BulkVector<PositionType> normals = ComputeTriangleSurfacePointNormals(surface);
   const TrianglesOfPoints fans(surface);
-  std::vector<float> curvatures(normals.size(), std::numeric_limits<float>::quiet_NaN());
+  BulkVector<float> curvatures(normals.size(), std::numeric_limits<float>::quiet_NaN());
+  std::mutex mutex;
+  std::vector<std::unique_ptr<Neighbourhoods>> free; // as many as threads
   rhombic::ForEachBlock(normals.size(), CurvatureBlock, [&](std::size_t begin, std::size_t end) {
-    Neighbourhoods neighbourhoods(surface, fans, radius);
+    std::unique_lock<std::mutex> lock(mutex);
+    auto neighbourhoods = free.empty() ? std::make_unique<Neighbourhoods>(surface, fans, radius) : std::move(free.back());
+    free.empty() ? void() : free.pop_back();
+    lock.unlock();
     for (std::size_t n = begin; n < end; ++n)
     {
       if (normals[n] == PositionType{} || !IsFinite(surface.GetPoints()[n]))
@@ -165,7 +172,7 @@ ComputeTriangleSurfaceMeanCurvature(const TriangleSurface & surface, double radi
       const PositionType centre = ToPosition(surface.GetPoints()[n]);
       const auto [x, y] = TangentsOf(normals[n]);
       JetFit fit;
-      for (const std::uint32_t point : neighbourhoods.Find(static_cast<std::uint32_t>(n)))
+      for (const std::uint32_t point : neighbourhoods->Find(static_cast<std::uint32_t>(n)))
       {
         const PositionType way = Scaled(Subtract(ToPosition(surface.GetPoints()[point]), centre), 1.0 / radius);
         fit.Add(Dot(way, x), Dot(way, y), Dot(way, normals[n]));
@@ -175,6 +182,8 @@ ComputeTriangleSurfaceMeanCurvature(const TriangleSurface & surface, double radi
         curvatures[n] = static_cast<float>(fit.GetMeanCurvature() / radius);
       }
     }
+    lock.lock();
+    free.push_back(std::move(neighbourhoods));
   });
   return curvatures;
 }

@@ -119,10 +119,10 @@ ShareWithin(std::array<double, 3> corners, double value)
 }
 
 /** The distance of each point that every \a step-th triangle uses; 0 for the others. */
-std::vector<Measured>
+BulkVector<Measured>
 MeasurePoints(const TriangleSurface & surface, const TriangleTree & other, std::size_t step)
 {
-  std::vector<char> isUsed(surface.GetNumberOfPoints(), step == 1);
+  BulkVector<char> isUsed(surface.GetNumberOfPoints(), step == 1);
   for (std::size_t id = 0; step > 1 && id < surface.GetNumberOfTriangles(); id += step)
   {
     for (const std::uint32_t point : surface.GetTriangles()[id])
@@ -130,7 +130,7 @@ MeasurePoints(const TriangleSurface & surface, const TriangleTree & other, std::
       isUsed[point] = 1;
     }
   }
-  std::vector<Measured> found(surface.GetNumberOfPoints());
+  BulkVector<Measured> found(surface.GetNumberOfPoints(), Measured());
   rhombic::ForEachBlock(found.size(), BlockSize, [&](std::size_t first, std::size_t last) {
     Distances distances(other);
     for (std::size_t point = first; point < last; ++point)
@@ -366,7 +366,7 @@ ComputeTriangleSurfaceDistance(const TriangleSurface & surface,
     return result;
   }
   const std::size_t step = triangles / settings.mostTriangles + (triangles % settings.mostTriangles != 0 ? 1 : 0);
-  const std::vector<Measured> atPoints = MeasurePoints(surface, other, step);
+  const BulkVector<Measured> atPoints = MeasurePoints(surface, other, step);
   const std::size_t chosen = (triangles + step - 1) / step;
   std::vector<TriangleSurfaceDistance::Divider> blocks((chosen + BlockSize - 1) / BlockSize, { other, settings });
   rhombic::ForEachBlock(chosen, BlockSize, [&](std::size_t first, std::size_t last) {
@@ -418,10 +418,10 @@ IsInsideTriangleSurface(const TriangleTree & tree, const PositionType & position
   return windings > 0;
 }
 
-std::vector<float>
+BulkVector<float>
 ComputeTriangleSurfaceSignedDistances(const TriangleSurface & surface, const TriangleTree & other)
 {
-  std::vector<float> found(surface.GetNumberOfPoints());
+  BulkVector<float> found(surface.GetNumberOfPoints());
   rhombic::ForEachBlock(found.size(), BlockSize, [&](std::size_t first, std::size_t last) {
     Distances distances(other);
     for (std::size_t point = first; point < last; ++point)

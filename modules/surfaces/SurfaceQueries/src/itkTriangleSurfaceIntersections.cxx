@@ -191,7 +191,7 @@ private:
 };
 
 /** The triangles of a tree that cross others of it, or are in another contact of at least that kind, ascending. */
-std::vector<std::uint32_t>
+BulkVector<std::uint32_t>
 FindAllCrossing(const TriangleTree & tree,
                 Flags areUnfolded,
                 Contact least,
@@ -217,7 +217,7 @@ FindAllCrossing(const TriangleTree & tree,
 
 /** The triangles that cross others with which they have a point in common, or that lie at the other end of an edge of
  * at most \a longest mm. */
-std::vector<std::uint32_t>
+BulkVector<std::uint32_t>
 FindCrossingAtEdges(const TriangleSurface & surface,
                     const TrianglesOfPoints & fans,
                     const Flags & areUnfolded,
@@ -225,7 +225,7 @@ FindCrossingAtEdges(const TriangleSurface & surface,
 {
   const auto & points = surface.GetPoints();
   const auto & triangles = surface.GetTriangles();
-  const auto test = [&](std::uint32_t a, std::uint32_t b, std::vector<std::uint32_t> & found) {
+  const auto test = [&](std::uint32_t a, std::uint32_t b, BulkVector<std::uint32_t> & found) {
     const auto isCorner = [&](std::uint32_t point) {
       return areUnfolded[point] != 0 && std::count(triangles[b].begin(), triangles[b].end(), point) > 0;
     };
@@ -236,7 +236,7 @@ FindCrossingAtEdges(const TriangleSurface & surface,
       found.insert(found.end(), { a, b });
     }
   };
-  const auto testAround = [&](std::size_t point, std::vector<std::uint32_t> & found) {
+  const auto testAround = [&](std::size_t point, BulkVector<std::uint32_t> & found) {
     fans.VisitTriangles(point, [&](std::uint32_t a) {
       if (areUnfolded[point] == 0)
       {
@@ -306,7 +306,7 @@ FindTriangleSurfaceSelfIntersections(const TriangleTree & tree, SizeValueType ma
   return found;
 }
 
-std::vector<std::uint32_t>
+BulkVector<std::uint32_t>
 FindCrossingTriangles(const TriangleTree & tree,
                       const TrianglesOfPoints & fans,
                       Contact least,
@@ -334,14 +334,14 @@ FindCrossingTriangles(const TriangleTree & tree,
   return FindAllCrossing(tree, std::move(areUnfolded), least, progress == nullptr ? silent : *progress, stageEnd);
 }
 
-std::vector<std::uint32_t>
+BulkVector<std::uint32_t>
 FindCrossingTriangles(const TriangleTree & tree,
                       const TrianglesOfPoints & fans,
-                      const std::vector<std::uint32_t> & candidates,
+                      const BulkVector<std::uint32_t> & candidates,
                       Contact least)
 {
   const TriangleSurface & surface = tree.GetSurface();
-  std::vector<std::uint32_t> corners;
+  BulkVector<std::uint32_t> corners;
   for (const std::uint32_t candidate : candidates)
   {
     const TriangleType & triangle = surface.GetTriangles()[candidate];
@@ -368,7 +368,7 @@ FindCrossingTriangles(const TriangleTree & tree,
   });
 }
 
-std::vector<std::uint32_t>
+BulkVector<std::uint32_t>
 FindCrossingTriangles(const TriangleGrid & grid, rhombic::StagedProgress & progress, double stageEnd)
 {
   constexpr std::size_t blocksTogether = 4;
@@ -435,16 +435,16 @@ FindLongestRoundedEdge(const TriangleSurface & surface, double smallestSpacing, 
   return 4.0 * rounding / (0.7 * gap - 2.0 * rounding) * largestSpacing;
 }
 
-std::vector<std::uint32_t>
+BulkVector<std::uint32_t>
 FindCrossingTriangles(const TriangleSurface & surface,
                       const TrianglesOfPoints & fans,
                       const CrossingCandidates & candidates)
 {
   Flags areUnfolded = FindUnfoldedPoints(surface, fans);
-  std::vector<std::uint32_t> found = FindCrossingAtEdges(surface, fans, areUnfolded, candidates.longestEdge);
+  BulkVector<std::uint32_t> found = FindCrossingAtEdges(surface, fans, areUnfolded, candidates.longestEdge);
   rhombic::StagedProgress silent({});
   const auto listed = FindAllCrossing(
-    TriangleTree(surface, candidates.triangles), std::move(areUnfolded), Contact::Crossing, silent, 1.0);
+    TriangleTree(surface, { candidates.triangles.begin(), candidates.triangles.end() }), std::move(areUnfolded), Contact::Crossing, silent, 1.0);
   found.insert(found.end(), listed.begin(), listed.end());
   SortUnique(found);
   return found;

@@ -119,7 +119,7 @@ private:
 TriangleSurfaceThickness
 Measure(const TriangleSurface & surface, const TriangleTree & tree, bool measuresBalls)
 {
-  const std::vector<PositionType> normals = ComputeTriangleSurfacePointNormals(surface);
+  const BulkVector<PositionType> normals = ComputeTriangleSurfacePointNormals(surface);
   const double slack = MeanSideOf(surface);
   TriangleSurfaceThickness thickness;
   thickness.walls.assign(normals.size(), NoThickness);
@@ -176,16 +176,16 @@ public:
   }
 
 private:
-  std::vector<std::uint32_t> m_Parents;
+  BulkVector<std::uint32_t> m_Parents;
 };
 
 } // namespace
 
-std::vector<std::array<double, 3>>
+BulkVector<std::array<double, 3>>
 ComputeTriangleSurfacePointNormals(const TriangleSurface & surface)
 {
   surface.VerifyTriangles();
-  std::vector<PositionType> normals(surface.GetNumberOfPoints(), PositionType{});
+  BulkVector<PositionType> normals(surface.GetNumberOfPoints(), PositionType{});
   for (const auto & triangle : surface.GetTriangles())
   {
     const PositionType area = AreaVector(CornersOf(surface, triangle));
@@ -208,7 +208,7 @@ ComputeTriangleSurfaceThickness(const TriangleSurface & surface, const TriangleT
   return Measure(surface, tree, true);
 }
 
-std::vector<float>
+BulkVector<float>
 ComputeTriangleSurfaceWalls(const TriangleSurface & surface, const TriangleTree & tree)
 {
   return Measure(surface, tree, false).walls;
@@ -224,7 +224,7 @@ FindThinParts(const TriangleSurface & surface, const TriangleTree & tree, double
   ThinParts thin;
   thin.limit = limit;
   LinkedParts linked(surface.GetNumberOfPoints());
-  std::vector<double> areas(surface.GetNumberOfPoints(), 0.0); // of thin corners
+  BulkVector<double> areas(surface.GetNumberOfPoints(), 0.0); // of thin corners
   for (const auto & triangle : surface.GetTriangles())
   {
     const double area = Length(AreaVector(CornersOf(surface, triangle))) / 2.0;
@@ -244,7 +244,7 @@ FindThinParts(const TriangleSurface & surface, const TriangleTree & tree, double
       }
     }
   }
-  std::vector<std::size_t> numbers(surface.GetNumberOfPoints(), 0); // of parts, from 1, by their first points
+  BulkVector<std::size_t> numbers(surface.GetNumberOfPoints(), 0); // of parts, from 1, by their first points
   for (std::uint32_t point = 0; point < surface.GetNumberOfPoints(); ++point)
   {
     if (areas[point] == 0.0)

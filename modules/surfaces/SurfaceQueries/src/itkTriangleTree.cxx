@@ -441,10 +441,10 @@ TriangleTree::TriangleTree(const TriangleSurface & surface)
   this->Build(AllTriangles(surface));
 }
 
-TriangleTree::TriangleTree(const TriangleSurface & surface, const std::vector<std::uint32_t> & triangles)
+TriangleTree::TriangleTree(const TriangleSurface & surface, BulkVector<std::uint32_t> triangles)
   : m_Surface(&surface)
 {
-  this->Build({ triangles.begin(), triangles.end() });
+  this->Build(std::move(triangles));
 }
 
 void

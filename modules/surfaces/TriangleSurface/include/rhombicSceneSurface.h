@@ -13,11 +13,14 @@
 namespace rhombic
 {
 
+/** A colour (sRGB) of each point of a surface. */
+using PointColours = itk::BulkVector<std::array<std::uint8_t, 3>>;
+
 /** A number of each point of a surface. */
 struct PointValues
 {
-  std::string name;          ///< with the unit, for arrays of files: "thickness_mm"
-  std::vector<float> values; ///< NaN: unknown
+  std::string name;               ///< with the unit, for arrays of files: "thickness_mm"
+  itk::BulkVector<float> values; ///< NaN: unknown
 };
 
 /** \class SceneSurface
@@ -31,9 +34,9 @@ struct SceneSurface
   bool isGlossy = false;  ///< shines as if it were wet; matte otherwise
   std::int32_t label = 0; ///< of the region in its label map; 0 for surfaces of no label
 
-  /** A colour (sRGB) of each point, in place of the colour; or null. Scenes with such surfaces are drawn without their
+  /** In place of the colour; or null. Scenes with such surfaces are drawn without their
    * lights, so that colours are seen as they are. */
-  std::shared_ptr<const std::vector<std::array<std::uint8_t, 3>>> pointColours = nullptr;
+  std::shared_ptr<const PointColours> pointColours = nullptr;
 
   /** The numbers behind the colours of points; or null. */
   std::shared_ptr<const PointValues> pointValues = nullptr;

@@ -13,10 +13,10 @@ namespace itk
 {
 
 /** The ids of which the marks are not 0, ascending. */
-inline std::vector<std::uint32_t>
-FindMarked(const std::vector<std::uint8_t> & marks)
+inline BulkVector<std::uint32_t>
+FindMarked(const BulkVector<std::uint8_t> & marks)
 {
-  std::vector<std::uint32_t> ids;
+  BulkVector<std::uint32_t> ids;
   for (std::size_t id = 0; id < marks.size(); ++id)
   {
     if (marks[id] != 0)
@@ -112,7 +112,7 @@ public:
    * \param triangles those at the points, see FindTrianglesAt() */
   template <typename TFind>
   void
-  StepSome(const std::vector<std::uint32_t> & points, const std::vector<std::uint32_t> & triangles, const TFind & find)
+  StepSome(const BulkVector<std::uint32_t> & points, const BulkVector<std::uint32_t> & triangles, const TFind & find)
   {
     this->CopyCorners(triangles, m_Surface.GetPoints(), m_Next);
     rhombic::ForEachInBlocks(
@@ -122,8 +122,8 @@ public:
   }
 
   /** The triangles at some points, ascending. */
-  std::vector<std::uint32_t>
-  FindTrianglesAt(const std::vector<std::uint32_t> & points) const;
+  BulkVector<std::uint32_t>
+  FindTrianglesAt(const BulkVector<std::uint32_t> & points) const;
 
   /** Moves each point to find(point), as Step() does, or as far as triangles at it and around it may turn and shrink:
    * where one of them may not, a point and those around it move a quarter less, two quarters less and so on, so that
@@ -183,34 +183,34 @@ private:
   LimitMove(const PointType & start, PointType position) const;
   bool
   IsSpoilt(std::uint32_t triangle) const;
-  std::vector<std::uint32_t>
+  BulkVector<std::uint32_t>
   FindSpoilt() const;
-  std::vector<std::uint32_t>
-  FindSpoilt(const std::vector<std::uint32_t> & triangles) const;
+  BulkVector<std::uint32_t>
+  FindSpoilt(const BulkVector<std::uint32_t> & triangles) const;
   void
-  PutBackSpoilt(std::vector<std::uint32_t> spoilt);
+  PutBackSpoilt(BulkVector<std::uint32_t> spoilt);
   void
-  CopyCorners(const std::vector<std::uint32_t> & triangles, const Points & from, Points & to) const;
-  std::vector<std::uint32_t>
-  FindCorners(const std::vector<std::uint32_t> & triangles) const;
+  CopyCorners(const BulkVector<std::uint32_t> & triangles, const Points & from, Points & to) const;
+  BulkVector<std::uint32_t>
+  FindCorners(const BulkVector<std::uint32_t> & triangles) const;
   void
   BeginRetreats();
-  std::vector<std::uint32_t>
-  Retreat(std::vector<std::uint32_t> triangles);
-  std::vector<std::uint32_t>
+  BulkVector<std::uint32_t>
+  Retreat(BulkVector<std::uint32_t> triangles);
+  BulkVector<std::uint32_t>
   FindMovedInTree() const;
   void
-  UpdateTree(const std::vector<std::uint32_t> & triangles);
+  UpdateTree(const BulkVector<std::uint32_t> & triangles);
 
   TriangleSurface & m_Surface;
   const TrianglesOfPoints & m_Fans;
   const MoveBound m_Bound;
   const TriangleLimits m_Limits;
   const Points m_Start;
-  std::vector<PositionType> m_StartAreas; ///< of the triangles, see AreaVector()
+  BulkVector<PositionType> m_StartAreas; ///< of the triangles, see AreaVector()
   Points m_Next;
   Points m_Moved;                       ///< from where points retreat
-  std::vector<std::uint8_t> m_Retreats; ///< of each point: quarters of its way back to the start
+  BulkVector<std::uint8_t> m_Retreats; ///< of each point: quarters of its way back to the start
   std::optional<TriangleTree> m_Tree;   ///< of the surface, since triangles that meet were first put back
   Points m_InTree;                      ///< the points that the tree has
 };

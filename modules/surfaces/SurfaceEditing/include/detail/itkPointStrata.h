@@ -26,7 +26,7 @@ struct CurvePoint
 /** The stratum of each point, and the points of curves, ascending. */
 struct PointStrata
 {
-  std::vector<Stratum> strata;
+  BulkVector<Stratum> strata;
   std::vector<CurvePoint> curves;
 };
 

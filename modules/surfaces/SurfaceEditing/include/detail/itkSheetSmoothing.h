@@ -33,8 +33,8 @@ public:
   }
 
 private:
-  std::vector<std::size_t> m_Begin; ///< index of each point's first neighbour, and the end of the last
-  std::vector<std::uint32_t> m_Ids;
+  BulkVector<std::size_t> m_Begin; ///< index of each point's first neighbour, and the end of the last
+  BulkVector<std::uint32_t> m_Ids;
 };
 
 /** Smooths a surface of sheets towards the result of a low-pass filter, as far as \a moves allow, as one stage of the

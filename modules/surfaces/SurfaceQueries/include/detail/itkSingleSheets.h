@@ -11,7 +11,7 @@ namespace itk
  *
  * The proof is that lines along an axis cross the surface at most once near there. Linear time, a fifth of that of a
  * search for crossings. */
-std::optional<std::vector<std::uint32_t>>
+std::optional<BulkVector<std::uint32_t>>
 FindTrianglesOutsideSingleSheets(const TriangleSurface & surface, const TriangleSizes & sizes);
 
 } // namespace itk

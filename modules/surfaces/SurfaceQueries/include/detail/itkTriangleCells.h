@@ -162,7 +162,7 @@ class TriangleRegion
 public:
   explicit TriangleRegion(const TriangleCells & cells)
     : m_Cells(cells)
-    , m_IsIn(cells.GetNumberOfCells())
+    , m_IsIn(cells.GetNumberOfCells(), 0)
   {}
 
   /** Adds the cells that a box meets. */
@@ -177,12 +177,12 @@ public:
   }
 
   /** The ids of the triangles whose boxes meet the region's cells, in any order. */
-  std::vector<std::uint32_t>
+  BulkVector<std::uint32_t>
   FindTriangles(const TriangleSurface & surface) const;
 
 private:
   const TriangleCells & m_Cells;
-  std::vector<std::uint8_t> m_IsIn;
+  BulkVector<std::uint8_t> m_IsIn;
 };
 
 } // namespace itk

@@ -12,8 +12,9 @@ namespace itk
 {
 
 /** Sorts ids and removes repeated ids. */
-inline void
-SortUnique(std::vector<std::uint32_t> & ids)
+template <typename TIds>
+void
+SortUnique(TIds & ids)
 {
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
@@ -22,13 +23,13 @@ SortUnique(std::vector<std::uint32_t> & ids)
 /** Calls \a work(begin, end, found) for blocks of [0, size), on several threads. Returns the ids that the calls append
  * to \a found, sorted, each of them once. */
 template <typename TWork>
-std::vector<std::uint32_t>
+BulkVector<std::uint32_t>
 CollectIds(std::size_t size, std::size_t blockSize, const TWork & work)
 {
-  std::vector<std::uint32_t> ids;
+  BulkVector<std::uint32_t> ids;
   std::mutex mutex;
   rhombic::ForEachBlock(size, blockSize, [&](std::size_t begin, std::size_t end) {
-    std::vector<std::uint32_t> ofBlock;
+    BulkVector<std::uint32_t> ofBlock;
     work(begin, end, ofBlock);
     const std::lock_guard<std::mutex> lock(mutex);
     ids.insert(ids.end(), ofBlock.begin(), ofBlock.end());
