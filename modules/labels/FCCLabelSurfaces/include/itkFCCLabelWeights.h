@@ -1,10 +1,13 @@
 #ifndef itkFCCLabelWeights_h
 #define itkFCCLabelWeights_h
 
+#include "itkBulkAllocator.h"
 #include "itkDataObject.h"
 #include "itkObjectFactory.h"
 
 #include <cstdint>
+#include <memory>
+#include <memory_resource>
 #include <vector>
 
 namespace itk
@@ -19,7 +22,8 @@ namespace itk
  * label of the site and as -Limit for others.
  *
  * Rows are the rows of an image of labels, counted from the first: j + k height. A row has at most 65,535 sites.
- * Memory: 8 bytes a weight, 48 bytes a row, and one byte for each site of a row.
+ * Memory: 8 bytes a weight, 64 bytes a row, and one byte for each site of a row; in temporary files where there was a
+ * rhombic::BulkInTemporaryFiles when the number of rows was set.
  *
  * Thread safety: different rows can be filled at once.
  *
@@ -47,7 +51,7 @@ public:
     LabelType label;
     float weight;
   };
-  using RowType = std::vector<Entry>;
+  using RowType = std::pmr::vector<Entry>;
 
   /** The size of weights that are not stored. */
   static constexpr float Limit = 3.0f;
@@ -56,6 +60,7 @@ public:
   void
   Swap(FCCLabelWeights & other)
   {
+    m_Memory.swap(other.m_Memory);
     m_Rows.swap(other.m_Rows);
     m_Begins.swap(other.m_Begins);
   }
@@ -101,7 +106,7 @@ public:
   void
   ForEachAt(SizeValueType row, std::uint32_t i, const TUse & use) const
   {
-    const std::vector<std::uint32_t> & begins = m_Begins[row];
+    const BeginsType & begins = m_Begins[row];
     const std::uint32_t place = i / SitesPerBegin;
     for (std::uint32_t n = place + 1 < begins.size() ? begins[place] : 0;
          place + 1 < begins.size() && n < begins[place + 1];
@@ -130,8 +135,11 @@ protected:
 private:
   static constexpr std::uint32_t SitesPerBegin = 4;
 
-  std::vector<RowType> m_Rows;
-  std::vector<std::vector<std::uint32_t>> m_Begins; ///< of each row: the first entry of some sites, and the end
+  using BeginsType = std::pmr::vector<std::uint32_t>;
+
+  std::shared_ptr<std::pmr::memory_resource> m_Memory; ///< of the entries and begins
+  BulkVector<RowType> m_Rows;
+  BulkVector<BeginsType> m_Begins; ///< of each row: the first entry of some sites, and the end
 };
 
 } // namespace itk

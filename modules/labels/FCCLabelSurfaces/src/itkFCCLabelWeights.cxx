@@ -1,5 +1,7 @@
 #include "itkFCCLabelWeights.h"
 
+#include "rhombicSparseBulk.h"
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -10,10 +12,15 @@ namespace itk
 void
 FCCLabelWeights::SetNumberOfRows(SizeValueType rows)
 {
-  m_Rows.clear();
-  m_Rows.resize(rows);
-  m_Begins.clear();
-  m_Begins.resize(rows);
+  this->Initialize();
+  m_Memory = rhombic::ResourceForSmallArrays();
+  m_Rows.reserve(rows);
+  m_Begins.reserve(rows);
+  for (SizeValueType row = 0; row < rows; ++row)
+  {
+    m_Rows.emplace_back(m_Memory.get());
+    m_Begins.emplace_back(m_Memory.get());
+  }
 }
 
 void
@@ -28,14 +35,14 @@ FCCLabelWeights::SortRow(SizeValueType row)
     ++places[entry.i + std::size_t{ 1 }];
   }
   std::partial_sum(places.begin(), places.end(), places.begin());
-  std::vector<std::uint32_t> & begins = m_Begins[row];
+  BeginsType & begins = m_Begins[row];
   begins.clear();
   for (std::size_t i = 0; i < places.size(); i += SitesPerBegin)
   {
     begins.push_back(places[i]);
   }
   begins.back() != entries.size() ? begins.push_back(places.back()) : void();
-  RowType sorted(entries.size());
+  RowType sorted(entries.size(), entries.get_allocator());
   for (const Entry & entry : entries)
   {
     sorted[places[entry.i]++] = entry;
@@ -53,7 +60,7 @@ FCCLabelWeights::SortRow(SizeValueType row)
 const float *
 FCCLabelWeights::Find(SizeValueType row, std::uint32_t i, LabelType label) const
 {
-  const std::vector<std::uint32_t> & begins = m_Begins[row];
+  const BeginsType & begins = m_Begins[row];
   const std::uint32_t place = i / SitesPerBegin;
   if (place + 1 >= begins.size())
   {
@@ -81,8 +88,9 @@ void
 FCCLabelWeights::Initialize()
 {
   Superclass::Initialize();
-  std::vector<RowType>().swap(m_Rows);
-  m_Begins.clear();
+  BulkVector<RowType>().swap(m_Rows);
+  BulkVector<BeginsType>().swap(m_Begins);
+  m_Memory.reset();
 }
 
 void

@@ -1,6 +1,7 @@
 #include "itkAntiAliasMaskImageFilter.h"
 
 #include "detail/itkRowArithmetic.h"
+#include "itkBulkImage.h"
 #include "itkInputSamples.h"
 #include "itkMath.h"
 #include "itkVoxelBand.h"
@@ -14,8 +15,6 @@
 #include <cstring>
 #include <functional>
 #include <iterator>
-#include <memory>
-#include <new>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -62,23 +61,10 @@ enum class VoxelForm : std::uint8_t
   Sheet      ///< in a larger part: a sheet or vessel
 };
 
-/** A byte for each voxel. */
-template <typename T>
-using VoxelBytes = std::unique_ptr<T[], decltype(&std::free)>;
-
-/** Bytes that are 0: the system hands out memory for the parts that are used only. */
-template <typename T>
-VoxelBytes<T>
-MakeVoxelBytes(SizeValueType voxels)
-{
-  VoxelBytes<T> bytes(static_cast<T *>(std::calloc(voxels, 1)), &std::free);
-  return bytes ? std::move(bytes) : throw std::bad_alloc();
-}
-
 /** For each voxel, 1 if it belongs to the set and 0 if not. */
-using VoxelSet = VoxelBytes<std::uint8_t>;
+using VoxelSet = VoxelArray<std::uint8_t>;
 
-using VoxelForms = VoxelBytes<VoxelForm>;
+using VoxelForms = VoxelArray<VoxelForm>;
 
 /** The index along an axis that is \a reach before \a index, or the nearest in an image of \a length voxels. */
 SizeValueType
@@ -438,7 +424,7 @@ FindSamples(const MaskWork & work, unsigned int axis, double sigma)
 
 /** The rows of a band that hold samples, or the others. */
 VoxelBand
-RowsOf(const VoxelBand & band, const std::vector<std::uint8_t> & hasSamples, bool withSamples)
+RowsOf(const VoxelBand & band, const BulkVector<std::uint8_t> & hasSamples, bool withSamples)
 {
   return band.Selected([&](SizeValueType row) { return (hasSamples[row] != 0) == withSamples; });
 }
@@ -457,8 +443,8 @@ MatchLocalVolumes(const MaskWork & work, const Scale & scale, const VoxelBand & 
   const AxisSamples alongX = FindSamples(work, 0, sigma);
   const AxisSamples alongY = FindSamples(work, 1, sigma);
   const AxisSamples alongZ = FindSamples(work, 2, sigma);
-  std::vector<std::uint8_t> hasSamples(height * work.size[2]); // by row
-  std::vector<SizeValueType> placeOfRow(hasSamples.size());    // in the sums
+  BulkVector<std::uint8_t> hasSamples(height * work.size[2]); // by row
+  BulkVector<SizeValueType> placeOfRow(hasSamples.size());    // in the sums
   SizeValueType placed = 0;
   for (SizeValueType row = 0; row < hasSamples.size(); ++row)
   {
@@ -467,7 +453,7 @@ MatchLocalVolumes(const MaskWork & work, const Scale & scale, const VoxelBand & 
     placed += hasSamples[row] != 0 && band.HasRow(row) ? width : 0;
   }
   const bool areAllSamples = std::find(hasSamples.begin(), hasSamples.end(), 0) == hasSamples.end();
-  std::vector<float> sums(areAllSamples ? 0 : placed); // of the lacks after the first, times the gain
+  BulkVector<float> sums(areAllSamples ? 0 : placed, 0.0f); // of the lacks after the first, times the gain
   const VoxelBand matched = areAllSamples ? band : RowsOf(band, hasSamples, true);
   const auto readMask = [&](SizeValueType row, float * values) {
     const std::uint8_t * const mask = work.mask + row * width;
@@ -559,7 +545,7 @@ Refine(const MaskWork & work, const Scale & scale, const VoxelBand & band, const
   });
   const SizeValueType blended = GaussianWeights(blendingSigma).size() / 2;
   const SizeValueType reach = blended + GaussianWeights(work.widening * scale.sigma).size(); // of two corrections
-  const std::unique_ptr<float[]> fine(new float[work.GetNumberOfVoxels()]);
+  const VoxelArray<float> fine = MakeVoxelArray<float>(work.GetNumberOfVoxels(), false);
   MatchLocalVolumes(work, scale, narrow.Widened({ reach, reach, reach }).Common(band), fine.get());
   Smooth(
     work,
@@ -627,7 +613,7 @@ template <typename TTest, typename TUse>
 void
 ForEachPart(const MaskWork & work, const VoxelBand & band, const TTest & isMember, const TUse & use)
 {
-  VoxelSet isSeen = MakeVoxelBytes<std::uint8_t>(work.GetNumberOfVoxels());
+  VoxelSet isSeen = MakeVoxelArray<std::uint8_t>(work.GetNumberOfVoxels(), true);
   work.ForEachVoxelInOrder(band, [&](SizeValueType first) {
     if (!isMember(first) || isSeen[first] != 0)
     {
@@ -849,9 +835,11 @@ void
 AntiAliasMaskImageFilter::GenerateData()
 {
   VerifyInputSamples(*this, *this->GetInput());
-  this->AllocateOutputs();
+  this->GetOutput()->SetBufferedRegion(this->GetOutput()->GetRequestedRegion());
+  AllocateInBulk(*this->GetOutput());
   const auto & size = this->GetOutput()->GetBufferedRegion().GetSize();
-  const std::unique_ptr<float[]> scratch(new float[RowArithmetic::PaddedLength(size[0]) * size[1] * size[2]]);
+  const VoxelArray<float> scratch =
+    MakeVoxelArray<float>(RowArithmetic::PaddedLength(size[0]) * size[1] * size[2], false);
   const auto longestPeriod = *std::max_element(m_SamplePeriod.begin(), m_SamplePeriod.end());
   WorkProgress progress(*this, Passes * (size[1] + size[2]));
   const MaskWork work{ *this,
@@ -881,8 +869,8 @@ AntiAliasMaskImageFilter::GenerateData()
   });
   MatchLocalVolumes(work, longestPeriod > 1 ? WideBetweenSlices : Wide, band, work.field);
 
-  VoxelForms forms = MakeVoxelBytes<VoxelForm>(work.GetNumberOfVoxels());
-  VoxelSet isNarrow = MakeVoxelBytes<std::uint8_t>(work.GetNumberOfVoxels());
+  VoxelForms forms = MakeVoxelArray<VoxelForm>(work.GetNumberOfVoxels(), true);
+  VoxelSet isNarrow = MakeVoxelArray<std::uint8_t>(work.GetNumberOfVoxels(), true);
   if (FindNarrow(work, forms, band, Narrow * static_cast<float>(work.widening), isNarrow))
   {
     Refine(work, Medium, band, isNarrow);

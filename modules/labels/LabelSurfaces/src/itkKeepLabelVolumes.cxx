@@ -1,5 +1,6 @@
 #include "itkKeepLabelVolumes.h"
 
+#include "itkBulkImage.h"
 #include "itkFCCLabelSurfaceFilter.h"
 #include "itkLabelVolumes.h"
 #include "rhombicForEachBlock.h"
@@ -36,7 +37,7 @@ ExtractAlone(LabelType label, const ImageRegion<3> & box, const Lattice & labels
   const auto part = Lattice::New();
   part->CopyInformation(&labels);
   part->SetRegions(box);
-  part->Allocate();
+  AllocateInBulk(*part);
   const auto weightsOfPart = FCCLabelWeights::New();
   weightsOfPart->SetNumberOfRows(box.GetSize(1) * box.GetSize(2));
   const ImageRegion<3> & whole = labels.GetLargestPossibleRegion();

@@ -33,13 +33,13 @@ struct LabelsOfVoxels
 
 /** Adds to each block of a grid those within \a reach along each axis. */
 template <typename TValue, typename TAdd>
-std::vector<TValue>
-Widened(std::vector<TValue> blocks, const SizeType & size, const SizeType & reach, const TAdd & add)
+BulkVector<TValue>
+Widened(BulkVector<TValue> blocks, const SizeType & size, const SizeType & reach, const TAdd & add)
 {
   SizeValueType step = 1;
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
-    const std::vector<TValue> before = blocks;
+    const BulkVector<TValue> before = blocks;
     for (SizeValueType n = 0; n < blocks.size(); ++n)
     {
       const SizeValueType here = n / step % size[axis];
@@ -56,11 +56,11 @@ Widened(std::vector<TValue> blocks, const SizeType & size, const SizeType & reac
 }
 
 /** The labels of the voxels in each block; at the border of the map, label 0 is among them. */
-std::vector<LabelsOfVoxels>
+BulkVector<LabelsOfVoxels>
 FindLabelsOfBlocks(const Image<std::uint16_t, 3> & map, const SizeType & edges, const SizeType & size)
 {
   const auto & voxels = map.GetLargestPossibleRegion().GetSize();
-  std::vector<LabelsOfVoxels> blocks(size[0] * size[1] * size[2]);
+  BulkVector<LabelsOfVoxels> blocks(size[0] * size[1] * size[2]);
   for (SizeValueType row = 0; row < voxels[1] * voxels[2]; ++row)
   {
     const SizeValueType y = row % voxels[1] / edges[1];
@@ -100,7 +100,7 @@ LabelBlocks::LabelBlocks(const Image<std::uint16_t, 3> & map, const SizeType & p
   const auto near = Widened(blocks, m_Size, { 1, 1, 1 }, addLabels);
   const auto wide = Widened(blocks, m_Size, blocksOfReach, addLabels);
   m_HaveOneNeighbor.resize(blocks.size());
-  std::vector<std::uint8_t> areJunctions(blocks.size());
+  BulkVector<std::uint8_t> areJunctions(blocks.size());
   for (SizeValueType n = 0; n < blocks.size(); ++n)
   {
     const bool isAtBorder = near[n].haveZero && near[n].label != 0;

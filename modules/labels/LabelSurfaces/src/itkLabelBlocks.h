@@ -1,11 +1,11 @@
 #ifndef itkLabelBlocks_h
 #define itkLabelBlocks_h
 
+#include "itkBulkAllocator.h"
 #include "itkImage.h"
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
 namespace itk
 {
@@ -63,8 +63,8 @@ private:
 
   SizeType m_Edges;
   SizeType m_Size;
-  std::vector<std::uint8_t> m_HaveOneNeighbor;
-  std::vector<std::uint8_t> m_AreNear; ///< junctions
+  BulkVector<std::uint8_t> m_HaveOneNeighbor;
+  BulkVector<std::uint8_t> m_AreNear; ///< junctions
 };
 
 } // namespace itk

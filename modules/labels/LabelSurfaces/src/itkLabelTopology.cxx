@@ -27,7 +27,7 @@ SetOf(LabelTopology::LabelType label, const std::array<LabelTopology::LabelType,
 
 template <typename TChange>
 void
-SortByGain(std::vector<TChange> & changes)
+SortByGain(BulkVector<TChange> & changes)
 {
   std::stable_sort(
     changes.begin(), changes.end(), [](const TChange & a, const TChange & b) { return a.gain > b.gain; });
@@ -37,7 +37,7 @@ SortByGain(std::vector<TChange> & changes)
  * returns true, until there are no more of these. */
 template <typename TElement, typename TChange>
 void
-ChangeEach(std::vector<TElement> & elements, const TChange & change)
+ChangeEach(BulkVector<TElement> & elements, const TChange & change)
 {
   for (std::size_t before = elements.size() + 1; before != elements.size();)
   {
@@ -148,14 +148,16 @@ LabelTopology::SortWeights()
 }
 
 template <typename TVisit>
-std::vector<LabelTopology::Change>
+LabelTopology::Changes
 LabelTopology::CollectChanges(const TVisit & visit)
 {
   const SizeValueType width = m_Labels.GetLargestPossibleRegion().GetSize(0);
-  std::vector<std::vector<Change>> found(m_Weights.GetNumberOfRows());
-  rhombic::ForEachInBlocks(
-    found.size(), 64, [&](std::size_t row) { visit(m_Weights.GetRow(row), row * width, found[row]); });
-  std::vector<Change> all;
+  constexpr std::size_t block = 64; // rows
+  std::vector<Changes> found((m_Weights.GetNumberOfRows() + block - 1) / block);
+  rhombic::ForEachInBlocks(m_Weights.GetNumberOfRows(), block, [&](std::size_t row) {
+    visit(m_Weights.GetRow(row), row * width, found[row / block]);
+  });
+  Changes all;
   for (const auto & changes : found)
   {
     all.insert(all.end(), changes.begin(), changes.end());
@@ -164,10 +166,10 @@ LabelTopology::CollectChanges(const TVisit & visit)
 }
 
 template <typename TTest>
-std::vector<LabelTopology::Change>
+LabelTopology::Changes
 LabelTopology::FindWeights(const TTest & test)
 {
-  return this->CollectChanges([&test](const auto & entries, SizeValueType firstSite, std::vector<Change> & found) {
+  return this->CollectChanges([&test](const auto & entries, SizeValueType firstSite, Changes & found) {
     for (const FCCLabelWeights::Entry & entry : entries)
     {
       if (test(firstSite + entry.i, entry.label))
@@ -178,11 +180,11 @@ LabelTopology::FindWeights(const TTest & test)
   });
 }
 
-std::vector<LabelTopology::Change>
+LabelTopology::Changes
 LabelTopology::FindChanges(std::vector<double> offsets)
 {
   offsets.resize(std::numeric_limits<LabelType>::max() + std::size_t{ 1 });
-  return this->CollectChanges([&](auto & entries, SizeValueType firstSite, std::vector<Change> & found) {
+  return this->CollectChanges([&](auto & entries, SizeValueType firstSite, Changes & found) {
     for (auto begin = entries.begin(), end = begin; begin != entries.end(); begin = end)
     {
       // The weights of one site: the weight of its label, if stored, is to be exceeded.
@@ -213,7 +215,7 @@ LabelTopology::IsAllowed(const Change & change) const
 }
 
 void
-LabelTopology::MakeChanges(std::vector<Change> & changes)
+LabelTopology::MakeChanges(Changes & changes)
 {
   SortByGain(changes);
   ChangeEach(changes, [this](const Change & change) {
@@ -249,7 +251,7 @@ template <typename TMeets>
 void
 LabelTopology::Separate(const TMeets & meets, bool canBeAlone)
 {
-  std::vector<Change> meetings;
+  Changes meetings;
   for (const Change & meeting : this->FindWeights([&](SizeValueType site, LabelType label) {
          return label != 0 && label == this->LabelOf(site) && meets(site);
        }))
@@ -303,7 +305,7 @@ LabelTopology::PlaceLostLabels()
   {
     hasSites[this->LabelOf(site)] = true;
   }
-  std::vector<Change> places = this->FindWeights([&](SizeValueType, LabelType label) { return !hasSites[label]; });
+  Changes places = this->FindWeights([&](SizeValueType, LabelType label) { return !hasSites[label]; });
   SortByGain(places);
   for (const Change & place : places)
   {
@@ -343,7 +345,7 @@ LabelTopology::AddOffsets(std::vector<double> offsets)
 }
 
 void
-LabelTopology::Assign(std::vector<Candidate> candidates)
+LabelTopology::Assign(Candidates candidates)
 {
   std::stable_sort(
     candidates.begin(), candidates.end(), [](const Candidate & a, const Candidate & b) { return a.site < b.site; });

@@ -1,6 +1,7 @@
 #ifndef itkLabelTopology_h
 #define itkLabelTopology_h
 
+#include "itkBulkAllocator.h"
 #include "itkFCCCells.h"
 #include "itkFCCImage.h"
 #include "itkFCCLabelWeights.h"
@@ -49,7 +50,7 @@ public:
     , m_Weights(weights)
     , m_Groups(groups)
     , m_IsBackground(std::move(isBackground))
-    , m_IsLocked(labels.GetLargestPossibleRegion().GetNumberOfPixels())
+    , m_IsLocked(labels.GetLargestPossibleRegion().GetNumberOfPixels(), false)
   {}
 
   /** A site that a thin part of a label passes. */
@@ -59,11 +60,12 @@ public:
     LabelType label;
     bool isLocked; ///< whether the site must not go to another label
   };
+  using Candidates = BulkVector<Candidate>;
 
   /** Gives sites to the labels that are candidates for them; of several, to the label of largest weight, and to 0 last.
    * Then changes labels as the class comment says. */
   void
-  Assign(std::vector<Candidate> candidates);
+  Assign(Candidates candidates);
 
   /** Adds an offset to all weights of each label.
    * \param offsets by label; 0 for labels past the end */
@@ -81,6 +83,7 @@ private:
     LabelType label;
     float gain;
   };
+  using Changes = BulkVector<Change>;
 
   LabelType &
   LabelOf(SizeValueType site)
@@ -128,16 +131,16 @@ private:
 
   /** The changes that visit(entries of a row, offset of its first site, changes) adds for each row, row by row. */
   template <typename TVisit>
-  std::vector<Change>
+  Changes
   CollectChanges(const TVisit & visit);
 
   /** The labels and their weights for which test(site, label) is true, in the order of the sites. */
   template <typename TTest>
-  std::vector<Change>
+  Changes
   FindWeights(const TTest & test);
 
   /** Adds offsets to the weights, and finds the changes after which each site has the label of largest weight. */
-  std::vector<Change>
+  Changes
   FindChanges(std::vector<double> offsets);
 
   /** Whether a change keeps the topology of both labels, and labels apart that must not meet. */
@@ -146,7 +149,7 @@ private:
 
   /** Makes the changes that are allowed, and removes them from the list. */
   void
-  MakeChanges(std::vector<Change> & changes);
+  MakeChanges(Changes & changes);
 
   /** The label that a site is to get when its own label meets another label of its group: the label of a neighbour with
    * the largest weight, or 0. */
@@ -176,8 +179,8 @@ private:
   const std::vector<LabelType> & m_Groups;
   std::function<bool(const Point<double, 3> &)> m_IsBackground;
   bool m_KeepsGaps{ false }; ///< whether labels must not meet across background
-  std::vector<bool> m_IsLocked;
-  std::vector<Change> m_Raised; ///< sites whose label's weight was raised, and by how much
+  BulkVector<bool> m_IsLocked;
+  Changes m_Raised; ///< sites whose label's weight was raised, and by how much
   std::set<SizeValueType> m_UnsortedRows;
 };
 

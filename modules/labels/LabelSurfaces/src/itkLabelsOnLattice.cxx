@@ -68,7 +68,7 @@ StrongestLabels::Add(const FCCImage<float> & field, LabelType label)
 }
 
 void
-StrongestLabels::AddZero(const FCCImage<float> & field, const std::vector<std::uint8_t> & hasOneNeighbor)
+StrongestLabels::AddZero(const FCCImage<float> & field, const BulkVector<std::uint8_t> & hasOneNeighbor)
 {
   this->AddWeights(
     field, 0, [&](float value, SizeValueType site) { return hasOneNeighbor[site] != 0 ? -m_Largest[site] : value; });

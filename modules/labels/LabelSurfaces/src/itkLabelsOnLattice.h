@@ -1,6 +1,7 @@
 #ifndef itkLabelsOnLattice_h
 #define itkLabelsOnLattice_h
 
+#include "itkBulkAllocator.h"
 #include "itkFCCImage.h"
 #include "itkFCCLabelWeights.h"
 #include "itkImage.h"
@@ -55,7 +56,7 @@ public:
    * and where label 0 has one neighbour the negative weight of the label that is strongest so far.
    * \param hasOneNeighbor for each site of the lattice, 1 or 0 */
   void
-  AddZero(const FCCImage<float> & field, const std::vector<std::uint8_t> & hasOneNeighbor);
+  AddZero(const FCCImage<float> & field, const BulkVector<std::uint8_t> & hasOneNeighbor);
 
   /** Sorts the weights, as FCCLabelWeights::Find() needs it. */
   void
@@ -69,7 +70,7 @@ private:
 
   FCCImage<LabelType> & m_Labels;
   FCCLabelWeights & m_Weights;
-  std::vector<float> m_Largest; ///< weight so far, of each site
+  BulkVector<float> m_Largest; ///< weight so far, of each site
 };
 
 /** The sites whose Voronoi cells hold a part of the middle of thin parts, sorted. The middle is made of the convex

@@ -3,6 +3,7 @@
 #include "detail/itkCartesianToFCCRows.h"
 #include "itkAntiAliasMaskImageFilter.h"
 #include "itkBoundingBox.h"
+#include "itkBulkImage.h"
 #include "itkCartesianToFCCImageFilter.h"
 #include "itkInputSamples.h"
 #include "itkKeepLabelVolumes.h"
@@ -316,7 +317,7 @@ MakeMask(const RefinedMap & map, LabelType label, const ImageRegion<3> & box)
   const auto mask = MaskImage::New();
   mask->CopyInformation(&map.GetGrid());
   mask->SetRegions(box);
-  mask->Allocate();
+  AllocateInBulk(*mask);
   std::vector<SizeValueType> nearest(box.GetSize(0));
   for (SizeValueType n = 0; n < nearest.size(); ++n)
   {
@@ -405,7 +406,7 @@ ResampleField(const CartesianToFCCRows & rows,
   const auto weights = FieldLattice::New();
   weights->CopyInformation(&lattice);
   weights->SetBufferedRegion(sites);
-  weights->Allocate();
+  AllocateInBulk(*weights);
   weights->FillBuffer(-FCCLabelWeights::Limit);
   const auto load = [&field](const Index<3> & start, SizeValueType length, float * row) {
     std::copy_n(field.GetBufferPointer() + field.ComputeOffset(start), length, row);
@@ -454,7 +455,7 @@ FindLockedOfZero(const RefinedMap & map, const AntiAliasMaskImageFilter & field,
 
 /** Finds a label's candidates: the sites that its thin parts pass. Candidates of protected voxels are locked, and those
  * at some other sites. */
-std::vector<LabelTopology::Candidate>
+LabelTopology::Candidates
 FindCandidates(const RefinedMap & map,
                const AntiAliasMaskImageFilter & field,
                LabelType label,
@@ -468,7 +469,7 @@ FindCandidates(const RefinedMap & map,
   const auto protectedSites = FindNearestSites(map, mask, field.GetProtectedVoxels(), labels);
   locked.insert(locked.end(), protectedSites.begin(), protectedSites.end());
   std::sort(locked.begin(), locked.end());
-  std::vector<LabelTopology::Candidate> candidates;
+  LabelTopology::Candidates candidates;
   for (const FCCLattice::SiteType & site : FindThinPartSites(mask, map.GetMapRegion(), field.GetThinVoxels(), place))
   {
     const Index<3> index = FCCLattice::IndexOf(site);
@@ -489,16 +490,16 @@ struct LabelInBox
   ImageRegion<3> sites;  ///< near the label
   ImageRegion<3> voxels; ///< of the refined map, on which the weights at the sites depend
   FieldLattice::Pointer weights;
-  std::vector<LabelTopology::Candidate> candidates;
+  LabelTopology::Candidates candidates;
   std::vector<FCCLattice::SiteType> lockedOfZero; ///< sites of voxels of label 0 that this label's field protects
 };
 
 /** For each site of the lattice, 1 where the border of label 0 has one neighbour and 0 elsewhere. */
-std::vector<std::uint8_t>
+BulkVector<std::uint8_t>
 FindSitesOfOneNeighbor(const RefinedMap & map, const LabelBlocks & junctions, const FieldLattice & lattice)
 {
   const ImageRegion<3> & whole = lattice.GetLargestPossibleRegion();
-  std::vector<std::uint8_t> hasOneNeighbor(whole.GetNumberOfPixels());
+  BulkVector<std::uint8_t> hasOneNeighbor(whole.GetNumberOfPixels(), 0);
   const auto offsetOf = [&whole](const Index<3> & site) {
     const Offset<3> from = site - whole.GetIndex();
     return (static_cast<SizeValueType>(from[2]) * whole.GetSize(1) + static_cast<SizeValueType>(from[1])) *
@@ -652,7 +653,7 @@ LabelsToFCCFilter::GenerateData()
   const auto labels = LatticeType::New();
   labels->CopyInformation(lattice);
   labels->SetRegions(lattice->GetLargestPossibleRegion());
-  labels->Allocate();
+  AllocateInBulk(*labels);
   const auto weights = FCCLabelWeights::New();
   StrongestLabels strongest(*labels, *weights);
   const LabelBlocks junctions = FindJunctions(image, map);
@@ -664,7 +665,7 @@ LabelsToFCCFilter::GenerateData()
     box.weights = ResampleField(rows, *field->GetOutput(), *lattice, box.sites);
     progress.Completed(1);
   };
-  std::vector<LabelTopology::Candidate> candidates;
+  LabelTopology::Candidates candidates;
   std::vector<FCCLattice::SiteType> lockedOfZero;
   const auto addTo = [](auto & all, const auto & some) { all.insert(all.end(), some.begin(), some.end()); };
   for (auto begin = boxes.begin() + (boxes.empty() ? 0 : 1), end = begin; begin != boxes.end();)

@@ -1,13 +1,13 @@
 #ifndef itkVoxelBand_h
 #define itkVoxelBand_h
 
+#include "itkBulkAllocator.h"
 #include "itkIntTypes.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <vector>
 
 namespace itk
 {
@@ -25,7 +25,7 @@ public:
   explicit VoxelBand(const SizeType & size)
     : m_Size(size)
     , m_TileLength(16 * ((size[0] + 16 * 64 - 1) / (16 * 64)))
-    , m_Rows(size[1] * size[2])
+    , m_Rows(size[1] * size[2], 0)
   {}
 
   SizeValueType
@@ -137,7 +137,7 @@ private:
     {
       // Without a gap, also beside the ends of the image: each row is reached over rows between it and its origin.
       const SizeValueType further = std::min(reached + 1, reach - reached);
-      const std::vector<std::uint64_t> rows = m_Rows;
+      const BulkVector<std::uint64_t> rows = m_Rows;
       for (SizeValueType first = 0; first < rows.size(); first += length * step)
       {
         for (SizeValueType row = first; row + further * step < first + length * step; ++row)
@@ -152,7 +152,7 @@ private:
 
   SizeType m_Size;
   SizeValueType m_TileLength;
-  std::vector<std::uint64_t> m_Rows;
+  BulkVector<std::uint64_t> m_Rows;
 };
 
 } // namespace itk

@@ -1,5 +1,7 @@
 #include "rhombicLabelNumbers.h"
 
+#include "itkBulkAllocator.h"
+#include "itkBulkImage.h"
 #include "rhombicFailure.h"
 #include "rhombicForEachBlock.h"
 #include "rhombicWording.h"
@@ -64,13 +66,16 @@ struct Run
   std::uint16_t label;
 };
 
+using Runs = itk::BulkVector<Run>;
+using RowBegins = itk::BulkVector<std::size_t>; ///< the first run of each row
+
 /** The runs of all rows that are not 0, and the first run of each row. */
-std::pair<std::vector<Run>, std::vector<std::size_t>>
+std::pair<Runs, RowBegins>
 FindRuns(const NumberImage & image)
 {
   const auto & size = image.GetBufferedRegion().GetSize();
-  std::vector<Run> runs;
-  std::vector<std::size_t> firstOfRow;
+  Runs runs;
+  RowBegins firstOfRow;
   for (std::size_t row = 0; row < size[1] * size[2]; ++row)
   {
     firstOfRow.push_back(runs.size());
@@ -87,11 +92,11 @@ FindRuns(const NumberImage & image)
                });
   }
   firstOfRow.push_back(runs.size());
-  return { runs, firstOfRow };
+  return { std::move(runs), std::move(firstOfRow) };
 }
 
 std::uint32_t
-FindRoot(std::vector<Run> & runs, std::uint32_t run)
+FindRoot(Runs & runs, std::uint32_t run)
 {
   while (runs[run].parent != run)
   {
@@ -102,11 +107,7 @@ FindRoot(std::vector<Run> & runs, std::uint32_t run)
 
 /** Joins runs of one label in two rows that overlap or are less than \a reach voxels apart. */
 void
-JoinRows(std::vector<Run> & runs,
-         const std::vector<std::size_t> & firstOfRow,
-         std::size_t row,
-         std::size_t otherRow,
-         std::uint32_t reach)
+JoinRows(Runs & runs, const RowBegins & firstOfRow, std::size_t row, std::size_t otherRow, std::uint32_t reach)
 {
   std::size_t first = firstOfRow[otherRow]; // run of the other row that a run of this row can reach
   const std::size_t end = firstOfRow[otherRow + 1];
@@ -130,7 +131,7 @@ JoinRows(std::vector<Run> & runs,
 
 /** Joins the runs of neighbouring rows to pieces, through faces alone or through edges and corners too. */
 void
-JoinRuns(std::vector<Run> & runs, const std::vector<std::size_t> & firstOfRow, std::size_t height, bool byFace)
+JoinRuns(Runs & runs, const RowBegins & firstOfRow, std::size_t height, bool byFace)
 {
   constexpr std::ptrdiff_t steps[][2] = { { -1, 0 }, { 0, -1 }, { -1, -1 }, { 1, -1 } }; // in y and z; two to faces
   const auto rows = static_cast<std::ptrdiff_t>(height);
@@ -150,7 +151,7 @@ JoinRuns(std::vector<Run> & runs, const std::vector<std::size_t> & firstOfRow, s
 
 /** The number of pieces of each label. */
 std::vector<std::size_t>
-CountPieces(const std::vector<Run> & runs, std::size_t labels)
+CountPieces(const Runs & runs, std::size_t labels)
 {
   std::vector<std::size_t> counts(labels);
   for (std::size_t run = 0; run < runs.size(); ++run)
@@ -198,7 +199,7 @@ NumberLabels(const ScanImage & image, const std::vector<LabelSummary> & labels)
     const auto * const from = voxels->GetBufferPointer();
     numbers->CopyInformation(voxels);
     numbers->SetRegions(region);
-    numbers->Allocate();
+    itk::AllocateInBulk(*numbers);
     ForEachInBlocks(region.GetSize(1) * region.GetSize(2), 64, [&](std::size_t row) {
       const std::size_t first = row * region.GetSize(0);
       for (std::size_t n = first; n < first + region.GetSize(0); ++n)
@@ -234,7 +235,7 @@ NumberPieces(NumberImage & image, std::size_t labels)
     last[label] = pieces.labels.size() - 1;
   }
   // The root of a piece is its first run, so its number is known before those of the others.
-  std::vector<std::uint16_t> numbers(runs.size());
+  itk::BulkVector<std::uint16_t> numbers(runs.size());
   for (std::size_t row = 0; row + 1 < firstOfRow.size(); ++row)
   {
     for (std::size_t run = firstOfRow[row]; run < firstOfRow[row + 1]; ++run)

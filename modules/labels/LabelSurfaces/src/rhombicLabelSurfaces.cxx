@@ -10,10 +10,11 @@
 #include "detail/itkPositionArithmetic.h"
 #include "itkFCCLabelSurfaceFilter.h"
 #include "rhombicForEachBlock.h"
+#include "itkBulkImage.h"
+#include "itkImageAlgorithm.h"
 #include "itkLabelWallsEditing.h"
 #include "itkLabelsToFCCFilter.h"
 #include "itkProbabilitiesToFCCFilter.h"
-#include "itkRegionOfInterestImageFilter.h"
 #include "itkTriangleSurfaceMeasures.h"
 
 #include <algorithm>
@@ -84,11 +85,13 @@ DescribeLabel(const LabelSummary & summary)
 LabelImage::Pointer
 Crop(const LabelImage & image, const itk::ImageRegion<3> & box)
 {
-  const auto filter = itk::RegionOfInterestImageFilter<LabelImage, LabelImage>::New();
-  filter->SetInput(&image);
-  filter->SetRegionOfInterest(box);
-  filter->Update();
-  return filter->GetOutput();
+  const auto cropped = LabelImage::New();
+  cropped->CopyInformation(&image);
+  cropped->SetOrigin(image.TransformIndexToPhysicalPoint<double>(box.GetIndex()));
+  cropped->SetRegions(box.GetSize());
+  itk::AllocateInBulk(*cropped);
+  itk::ImageAlgorithm::Copy(&image, cropped.GetPointer(), box, cropped->GetBufferedRegion());
+  return cropped;
 }
 
 /** Bytes for labels and fields, for weights, and for walls. */
@@ -250,7 +253,7 @@ WallsOfProbabilities(const LabelMap & map,
 void
 SetNormals(itk::TriangleSurface & surface)
 {
-  std::vector<itk::PositionType> sums(surface.GetNumberOfPoints());
+  itk::BulkVector<itk::PositionType> sums(surface.GetNumberOfPoints(), itk::PositionType{});
   for (const auto & triangle : surface.GetTriangles())
   {
     const itk::CornersType corners = itk::CornersOf(surface, triangle);
