@@ -215,11 +215,12 @@ EstimateMesh(const SampledSlices & sample,
 void
 CountSteps(const MeshSteps & steps, MeshEstimate & mesh)
 {
-  constexpr double whileSmoothed = 145.0;    // bytes of a triangle
-  constexpr double whileSimplified = 345.0;  // of those before
+  constexpr double whileSmoothed = 145.0;   // bytes of a triangle
+  constexpr double whileSimplified = 345.0; // of those before
   constexpr double whileColoured = 130.0;
-  const double most =
-    std::max({ steps.smooths ? whileSmoothed : 0.0, steps.simplifies ? whileSimplified : 0.0, steps.colours ? whileColoured : 0.0 });
+  const double most = std::max({ steps.smooths ? whileSmoothed : 0.0,
+                                 steps.simplifies ? whileSimplified : 0.0,
+                                 steps.colours ? whileColoured : 0.0 });
   mesh.bytes.afterwards = std::max(mesh.bytes.afterwards, static_cast<std::uintmax_t>(mesh.triangles * most));
 }
 

@@ -14,7 +14,7 @@ namespace rhombic
 struct VolumeValues
 {
   std::vector<itk::BulkVector<float>> values; ///< NaN outside of the volume
-  std::string unit;                       ///< "HU", "Bq/ml", "SUV"; empty if unknown
+  std::string unit;                           ///< "HU", "Bq/ml", "SUV"; empty if unknown
 };
 
 ScanSource

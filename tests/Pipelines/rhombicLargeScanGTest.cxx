@@ -592,18 +592,16 @@ TEST_F(LargeScan, FinishedMeshesBeyondTheMemoryAreTheSameByTemporaryFiles)
   expectSame("fewer", [](auto & settings) { settings.finish.share = 0.8; });
   expectSame("within an error", [](auto & settings) { settings.finish.maximumError = 0.02; });
   expectSame("thin", [](auto & settings) { settings.minimumThickness = 1.0; });
-  expectSame("coloured by a volume", [&](auto & settings) {
-    settings.colourBy = rhombic::ParseColourBy(path.string() + ",0,255,mean:2mm");
-  });
+  expectSame("coloured by a volume",
+             [&](auto & settings) { settings.colourBy = rhombic::ParseColourBy(path.string() + ",0,255,mean:2mm"); });
   expectSame("coloured by curvature", [](auto & settings) {
     settings.colourBy = rhombic::ParseColourBy("curvature:2mm");
     settings.mesh.replace_extension(".vtp");
   });
   const fs::path other = m_Folder.Path() / "other.ply";
   fs::copy_file(m_Folder.Path() / "mesh.ply", other);
-  expectSame("coloured by distances", [&](auto & settings) {
-    settings.colourBy = rhombic::ParseColourBy("distance:" + other.string());
-  });
+  expectSame("coloured by distances",
+             [&](auto & settings) { settings.colourBy = rhombic::ParseColourBy("distance:" + other.string()); });
 }
 
 TEST_F(LargeScan, MeshesBeyondTheMemoryAreRefusedBeforeWorkThatNeedsThemThere)

@@ -1,6 +1,6 @@
 #!/bin/bash
 # check-large-volumes.sh PROGRAM WORK: rhombic mesh in slabs of a scan in a temporary file, and of a surface in temporary
-# files, is killed at random moments, and meets full disks: nothing half-written, no file left over but hidden ones of
+# files, keeps private memory small, is killed at random moments, and meets full disks: nothing half-written, no file left over but hidden ones of
 # killed processes, and the next run makes the same bytes. Full disks need root, who can mount small ones. rhombic render draws the same picture of
 # a volume in slabs as in memory.
 set -eu
@@ -39,6 +39,20 @@ noise() { # OUTPUT [MEMORY]: in place of a subshell
 grep -q "million triangles, are put into temporary files" "$work/notes" || fail "in memory: $(cat "$work/notes")"
 (noise "$work/whole.ply" 1G) 2> "$work/notes"
 cmp "$work/expected-noise.ply" "$work/whole.ply"
+
+# Finished surfaces, too, with the same bytes and notes; private memory (RLIMIT_DATA) does not grow with them.
+finished() { # MEMORY OUTPUT OPTIONS: in place of a subshell
+    exec "$program" mesh "$work/noise.mhd" -t 127.5 --threads 2 --max-memory $1 --temporary "$work/tmp" --no-sidecar -o "$2" "${@:3}"
+}
+for finish in "--smooth 0.3" "--max-triangles 85%"; do
+    (finished 1G "$work/whole.ply" $finish) 2> "$work/notes-whole"
+    (ulimit -d 110000; finished 10M "$work/files.ply" $finish) 2> "$work/notes" || fail "$finish: $(cat "$work/notes")"
+    cmp "$work/whole.ply" "$work/files.ply"
+    grep -q "are put into temporary files" "$work/notes" || fail "$finish: in memory: $(cat "$work/notes")"
+    code=0
+    (ulimit -d 110000; finished 1G "$work/files.ply" $finish) 2> "$work/notes" || code=$?
+    [ $code = 9 ] || fail "$finish: as little private memory without temporary files: $code, $(cat "$work/notes")"
+done
 
 RANDOM=7
 kill_at_random() { # COMMAND EXPECTED RUNS MILLISECONDS

@@ -73,8 +73,7 @@ TEST(TriangleProximity, TheTrianglesOfAProofAreEnough)
     }
     ++proofs;
     ASSERT_GT(proof.size, 0u);
-    const itk::TriangleTree some(
-      *surface, std::vector<std::uint32_t>(proof.triangles.begin(), proof.triangles.begin() + proof.size));
+    const itk::TriangleTree some(*surface, { proof.triangles.begin(), proof.triangles.begin() + proof.size });
     for (unsigned int sample = 0; sample < 100; ++sample)
     {
       const double a = std::sqrt(std::generate_canonical<double, 32>(random));

@@ -99,7 +99,7 @@ MakeTube(double inner, double outer, double length, std::uint32_t segments)
 }
 
 void
-ExpectAll(const std::vector<float> & values, double expected, double tolerance)
+ExpectAll(const itk::BulkVector<float> & values, double expected, double tolerance)
 {
   ASSERT_FALSE(values.empty());
   const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());

@@ -64,8 +64,9 @@ struct EdgeToCollapse
 struct CollapseLog
 {
   std::pmr::vector<EdgeToCollapse> edges;
-  std::pmr::vector<std::uint16_t> covering; ///< for each witness that moves, which of the changed triangles then covers it
-  bool wasHeldBack = false;            ///< whether others stayed because of the error or the distance from the original
+  std::pmr::vector<std::uint16_t>
+    covering;               ///< for each witness that moves, which of the changed triangles then covers it
+  bool wasHeldBack = false; ///< whether others stayed because of the error or the distance from the original
 };
 
 /** A point that has moved. */

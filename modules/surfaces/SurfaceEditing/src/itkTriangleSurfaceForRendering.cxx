@@ -32,13 +32,13 @@ void *
 AllocateForOptimizer(std::size_t bytes)
 {
   constexpr std::size_t smallestBulk = std::size_t{ 1 } << 22;
-  void * const block = bytes < smallestBulk ? std::malloc(std::max<std::size_t>(bytes, 1)) : rhombic::AllocateBulk(bytes);
+  void * const block =
+    bytes < smallestBulk ? std::malloc(std::max<std::size_t>(bytes, 1)) : rhombic::AllocateBulk(bytes);
   return block != nullptr ? block : throw std::bad_alloc();
 }
 
 /** Set once, before anything can be allocated; in temporary files then, where a surface is. */
-[[maybe_unused]] const bool IsOptimizerInBulk =
-  (meshopt_setAllocator(AllocateForOptimizer, rhombic::FreeBulk), true);
+[[maybe_unused]] const bool IsOptimizerInBulk = (meshopt_setAllocator(AllocateForOptimizer, rhombic::FreeBulk), true);
 
 /** Quantities that are averaged over the neighbourhood of a point. */
 struct NormalSample

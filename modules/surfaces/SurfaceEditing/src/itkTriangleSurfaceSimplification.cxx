@@ -104,7 +104,33 @@ struct Patch
     , versions(memory)
   {}
 
+  /** Copies a result of fewer collapses, which grows from round to round. */
+  void
+  TakeReplayed(const CollapsedPart & replayed)
+  {
+    const std::size_t most = before.triangles.size();
+    Take(replayed.part.triangles, most, after.part.triangles);
+    Take(replayed.part.sheets, most, after.part.sheets);
+    Take(replayed.part.witnesses, before.witnesses.size(), after.part.witnesses);
+    Take(replayed.ids, most, after.ids);
+    Take(replayed.changes, most, after.changes);
+    Take(replayed.movedPoints, log.edges.size(), after.movedPoints);
+  }
+
 private:
+  /** Leaves room between the size and the most, so that few arrays are given back. */
+  template <typename T>
+  static void
+  Take(const std::pmr::vector<T> & from, std::size_t most, std::pmr::vector<T> & to)
+  {
+    if (from.size() > to.capacity())
+    {
+      to.clear();
+      to.reserve((from.size() + most + 1) / 2);
+    }
+    to.assign(from.begin(), from.end());
+  }
+
   static SurfacePart
   PartIn(std::pmr::memory_resource * memory)
   {
@@ -481,7 +507,8 @@ private:
   {
     rhombic::ForEachInBlocks(patches.size(), 1, [&](std::size_t n) {
       Patch & patch = m_Patches[patches[n]];
-      patch.after = ReplayCollapses({ *m_Before, m_Points, m_Limits }, patch.before, patch.log, patch.mostChanges);
+      patch.TakeReplayed(
+        ReplayCollapses({ *m_Before, m_Points, m_Limits }, patch.before, patch.log, patch.mostChanges));
       m_Progress.Completed(0);
     });
   }
@@ -810,11 +837,10 @@ private:
   Flags m_IsHeld; ///< for each point of m_State, whether it stays, because triangles there were bad
 
   // Empty if the distance has no limit.
-  BulkVector<TriangleId> m_NearPoints; ///< for each point of m_State, a triangle of the original nearby
-  BulkVector<TriangleId>
-    m_WitnessTriangles;                     ///< for each point of the original, the triangle of m_State that covers it
-  BulkVector<PointId> m_CoveredPoints;      ///< points of the original, by the triangle that covers them
-  BulkVector<std::uint32_t> m_FirstCovered; ///< for each triangle of m_State, its first of these, and the end
+  BulkVector<TriangleId> m_NearPoints;       ///< for each point of m_State, a triangle of the original nearby
+  BulkVector<TriangleId> m_WitnessTriangles; ///< for each point of the original, the triangle of m_State that covers it
+  BulkVector<PointId> m_CoveredPoints;       ///< points of the original, by the triangle that covers them
+  BulkVector<std::uint32_t> m_FirstCovered;  ///< for each triangle of m_State, its first of these, and the end
   Flags m_IsCovered; ///< for each triangle of the original, whether the triangles that cover its corners cover it
 
   BulkVector<ProximityProof> m_Proofs; ///< for each triangle of the original that is not covered: by versions

@@ -18,7 +18,7 @@ namespace itk
 namespace
 {
 
-using Ids = BulkVector<std::uint32_t>; ///< ids of points or triangles
+using Ids = BulkVector<std::uint32_t>;                                        ///< ids of points or triangles
 using Places = std::unordered_map<std::uint32_t, TriangleSurface::PointType>; ///< of some points
 
 constexpr int MostUntanglingRounds = 40;

@@ -146,7 +146,7 @@ public:
     : m_Surface(surface)
     , m_Cells(cells)
     , m_Marks(cells.GetNumberOfCells())
-    , m_AreSingle(cells.GetNumberOfCells())
+    , m_AreSingle(cells.GetNumberOfCells(), 0)
   {
     for (unsigned int axis = 0; axis < 3; ++axis)
     {
@@ -352,9 +352,8 @@ FindTrianglesOutsideSingleSheets(const TriangleSurface & surface, const Triangle
   const TriangleCells cells(sizes, SheetCellOverMean);
   SheetCells sheets(surface, cells);
   const std::uint64_t edges = sheets.MarkTriangles(0, sizes.count);
-  return edges == 0 && sheets.FindSingle() >= LeastShare
-           ? std::optional<BulkVector<std::uint32_t>>(sheets.FindOthers())
-           : std::nullopt;
+  return edges == 0 && sheets.FindSingle() >= LeastShare ? std::optional<BulkVector<std::uint32_t>>(sheets.FindOthers())
+                                                         : std::nullopt;
 }
 
 } // namespace itk

@@ -160,7 +160,8 @@ ComputeTriangleSurfaceMeanCurvature(const TriangleSurface & surface, double radi
   std::vector<std::unique_ptr<Neighbourhoods>> free; // as many as threads
   rhombic::ForEachBlock(normals.size(), CurvatureBlock, [&](std::size_t begin, std::size_t end) {
     std::unique_lock<std::mutex> lock(mutex);
-    auto neighbourhoods = free.empty() ? std::make_unique<Neighbourhoods>(surface, fans, radius) : std::move(free.back());
+    auto neighbourhoods =
+      free.empty() ? std::make_unique<Neighbourhoods>(surface, fans, radius) : std::move(free.back());
     free.empty() ? void() : free.pop_back();
     lock.unlock();
     for (std::size_t n = begin; n < end; ++n)

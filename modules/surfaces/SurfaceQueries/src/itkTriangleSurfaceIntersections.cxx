@@ -443,8 +443,12 @@ FindCrossingTriangles(const TriangleSurface & surface,
   Flags areUnfolded = FindUnfoldedPoints(surface, fans);
   BulkVector<std::uint32_t> found = FindCrossingAtEdges(surface, fans, areUnfolded, candidates.longestEdge);
   rhombic::StagedProgress silent({});
-  const auto listed = FindAllCrossing(
-    TriangleTree(surface, { candidates.triangles.begin(), candidates.triangles.end() }), std::move(areUnfolded), Contact::Crossing, silent, 1.0);
+  const auto listed =
+    FindAllCrossing(TriangleTree(surface, { candidates.triangles.begin(), candidates.triangles.end() }),
+                    std::move(areUnfolded),
+                    Contact::Crossing,
+                    silent,
+                    1.0);
   found.insert(found.end(), listed.begin(), listed.end());
   SortUnique(found);
   return found;

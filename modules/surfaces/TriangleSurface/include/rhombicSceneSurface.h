@@ -19,7 +19,7 @@ using PointColours = itk::BulkVector<std::array<std::uint8_t, 3>>;
 /** A number of each point of a surface. */
 struct PointValues
 {
-  std::string name;               ///< with the unit, for arrays of files: "thickness_mm"
+  std::string name;              ///< with the unit, for arrays of files: "thickness_mm"
   itk::BulkVector<float> values; ///< NaN: unknown
 };
 

@@ -209,10 +209,10 @@ private:
   const Points m_Start;
   BulkVector<PositionType> m_StartAreas; ///< of the triangles, see AreaVector()
   Points m_Next;
-  Points m_Moved;                       ///< from where points retreat
+  Points m_Moved;                      ///< from where points retreat
   BulkVector<std::uint8_t> m_Retreats; ///< of each point: quarters of its way back to the start
-  std::optional<TriangleTree> m_Tree;   ///< of the surface, since triangles that meet were first put back
-  Points m_InTree;                      ///< the points that the tree has
+  std::optional<TriangleTree> m_Tree;  ///< of the surface, since triangles that meet were first put back
+  Points m_InTree;                     ///< the points that the tree has
 };
 
 } // namespace itk
