@@ -1,6 +1,7 @@
 #include "rhombicScanReport.h"
 
 #include "rhombicFiles.h"
+#include "rhombicWording.h"
 
 #include "vnl/vnl_det.h"
 
@@ -169,12 +170,10 @@ ReportWithoutNames(const Scan & scan, const std::filesystem::path & path)
   for (Report & note : report["notes"])
   {
     auto text = note.get<std::string>();
+    constexpr std::size_t fewestLetters = 3; // "a" is a word of sentences
     for (const std::string & name : { path.string(), path.filename().string(), path.stem().string() })
     {
-      for (std::size_t at = text.find(name); !name.empty() && at != std::string::npos; at = text.find(name, at + 4))
-      {
-        text.replace(at, name.size(), "SCAN");
-      }
+      name.size() < fewestLetters ? void() : ReplaceWords(text, name, "SCAN");
     }
     note = text;
   }

@@ -22,6 +22,23 @@ TEST(ScanReport, ListsRemovedObjects)
   EXPECT_EQ(report["airValue"], -1000.0);
 }
 
+TEST(ScanReport, NotesNameNoFileAndKeepTheirWords)
+{
+  rhombic::Scan scan;
+  scan.image = itk::Image<short, 3>::New();
+  const auto notesOf = [&scan](const std::string & note, const std::string & path) {
+    scan.notes = { note };
+    return rhombic::ReportWithoutNames(scan, path)["notes"][0].get<std::string>();
+  };
+  EXPECT_EQ(notesOf("/data/smith.mhd does not say how large its voxels are.", "/data/smith.mhd"),
+            "SCAN does not say how large its voxels are.");
+  EXPECT_EQ(notesOf("smith.mhd: the values of smith.raw are a guess.", "/data/smith.mhd"),
+            "SCAN: the values of SCAN.raw are a guess.");
+  EXPECT_EQ(notesOf("g.mhd does not say how large its voxels are; 1 mm is a guess.", "g.mhd"),
+            "SCAN does not say how large its voxels are; 1 mm is a guess.");
+  EXPECT_EQ(notesOf("a.mhd: 1 mm is a guess.", "a.mhd"), "SCAN: 1 mm is a guess.");
+}
+
 TEST(SurfaceReport, ComparesALabelsSurfaceWithItsVoxels)
 {
   const auto triangles = itk::TriangleSurface::New();

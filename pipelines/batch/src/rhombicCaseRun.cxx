@@ -33,24 +33,6 @@ ReadResult(const fs::path & path)
   return result.is_object() ? result : Report::object();
 }
 
-/** Replaces a text wherever no letter or digit is beside it. */
-void
-ReplaceAll(std::string & text, const std::string & part, const std::string & by)
-{
-  const auto isLetter = [&text](std::size_t place) {
-    return place < text.size() && std::isalnum(static_cast<unsigned char>(text[place])) != 0;
-  };
-  for (auto place = text.find(part); place != std::string::npos && !part.empty(); place = text.find(part, place))
-  {
-    const bool isPartOfWord = (place > 0 && isLetter(place - 1)) || isLetter(place + part.size());
-    if (!isPartOfWord)
-    {
-      text.replace(place, part.size(), by);
-    }
-    place += isPartOfWord ? 1 : by.size();
-  }
-}
-
 /** A sentence in which files of a folder have their names alone. */
 std::string
 WithoutFolder(std::string sentence, const fs::path & folder)
@@ -67,10 +49,10 @@ WithoutFolder(std::string sentence, const fs::path & folder)
 std::string
 WithoutNames(std::string sentence, const BatchCase & batchCase, const fs::path & stage)
 {
-  ReplaceAll(sentence, stage.string(), "CASE");
-  ReplaceAll(sentence, batchCase.scan.string(), "SCAN");
-  ReplaceAll(sentence, batchCase.labels.string(), "LABELS");
-  ReplaceAll(sentence, batchCase.reference.string(), "REFERENCE");
+  ReplaceWords(sentence, stage.string(), "CASE");
+  ReplaceWords(sentence, batchCase.scan.string(), "SCAN");
+  ReplaceWords(sentence, batchCase.labels.string(), "LABELS");
+  ReplaceWords(sentence, batchCase.reference.string(), "REFERENCE");
   std::map<std::string, std::string> names;
   for (std::size_t n = 0; n < batchCase.files.size(); ++n)
   {
@@ -93,7 +75,7 @@ WithoutNames(std::string sentence, const BatchCase & batchCase, const fs::path &
   });
   for (const auto & [name, by] : longestFirst)
   {
-    ReplaceAll(sentence, name, by);
+    ReplaceWords(sentence, name, by);
   }
   return sentence;
 }

@@ -158,4 +158,14 @@ TEST(Wording, PatternsMatchNames)
   EXPECT_FALSE(MatchesPattern("", "a"));
 }
 
+TEST(Wording, WordsAreReplacedWhereTheyStandAlone)
+{
+  std::string text = "g.mhd is large, /g/ and g_2, not g2";
+  rhombic::ReplaceWords(text, "g", "SCAN");
+  EXPECT_EQ(text, "SCAN.mhd is large, /SCAN/ and SCAN_2, not g2");
+  rhombic::ReplaceWords(text, "", "x");
+  rhombic::ReplaceWords(text, "SCAN", "SCAN SCAN");
+  EXPECT_EQ(text, "SCAN SCAN.mhd is large, /SCAN SCAN/ and SCAN SCAN_2, not g2");
+}
+
 } // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <numeric>
 
@@ -138,6 +139,23 @@ std::string
 DescribeLength(double millimetres)
 {
   return FormatMeasure(millimetres, LengthUnits);
+}
+
+void
+ReplaceWords(std::string & text, const std::string & words, const std::string & by)
+{
+  const auto isLetter = [&text](std::size_t place) {
+    return place < text.size() && std::isalnum(static_cast<unsigned char>(text[place])) != 0;
+  };
+  for (auto place = text.find(words); place != std::string::npos && !words.empty(); place = text.find(words, place))
+  {
+    const bool isInWord = (place > 0 && isLetter(place - 1)) || isLetter(place + words.size());
+    if (!isInWord)
+    {
+      text.replace(place, words.size(), by);
+    }
+    place += isInWord ? 1 : by.size();
+  }
 }
 
 std::string
