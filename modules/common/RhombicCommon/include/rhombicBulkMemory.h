@@ -9,8 +9,11 @@
 namespace rhombic
 {
 
-/** A block of megabytes for arrays of millions of elements, on huge pages where the system has them: a mesh of 300 MB
- * costs 150 page faults instead of 75,000. Throws std::bad_alloc, or Failure(Memory) where there is a
+/** Arrays from so many bytes on are blocks of AllocateBulk(). */
+constexpr std::size_t SmallestBulk = std::size_t{ 1 } << 18;
+
+/** A block for arrays of many elements, from 4 MiB on on huge pages where the system has them: a mesh of 300 MB costs
+ * 150 page faults instead of 75,000. Throws std::bad_alloc, or Failure(Memory) where there is a
  * BulkInTemporaryFiles. For any thread, as FreeBulk(). */
 void *
 AllocateBulk(std::size_t bytes);

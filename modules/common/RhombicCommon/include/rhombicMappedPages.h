@@ -49,11 +49,15 @@ public:
   void
   Drop() const;
 
+  /** Closes the file, whose pages stay: for many at once. Drop() is for open files. */
+  void
+  CloseFile();
+
 private:
   std::vector<std::pair<std::size_t, std::size_t>>
   FindUnchanged() const;
 
-  const int m_File;
+  int m_File; ///< below 0: closed
   const std::size_t m_Size;
   const bool m_IsShared;
   std::byte * m_Address = nullptr;

@@ -1,5 +1,6 @@
 #include "rhombicBulkMemory.h"
 
+#include "rhombicBulkResource.h"
 #include "rhombicSparseBulk.h"
 
 #include "itkRecyclingMemory.h"
@@ -17,6 +18,8 @@ namespace rhombic
 {
 namespace
 {
+
+constexpr std::size_t SmallestHuge = std::size_t{ 1 } << 22; // on huge pages
 
 /** All blocks in temporary files. */
 struct MappedBlocks
@@ -49,6 +52,7 @@ struct MappedBlocks
       return nullptr;
     }
     auto pages = MapTemporaryFile(*store, bytes);
+    pages->CloseFile();
     void * const block = pages->GetAddress();
     const std::lock_guard<std::mutex> lock(mutex);
     blocks.emplace(block, std::move(pages));
@@ -62,83 +66,6 @@ NotNull(void * block)
   return block != nullptr ? block : throw std::bad_alloc();
 }
 
-/** \class SmallArrays
- * \brief Small arrays in blocks of AllocateBulk(). Freed arrays are used again for others of nearly their size. */
-class SmallArrays : public std::pmr::memory_resource
-{
-public:
-  SmallArrays() = default;
-  ~SmallArrays() override
-  {
-    std::for_each(m_Blocks.begin(), m_Blocks.end(), FreeBulk);
-  }
-  SmallArrays(const SmallArrays &) = delete;
-  SmallArrays &
-  operator=(const SmallArrays &) = delete;
-
-private:
-  static constexpr std::size_t Largest = std::size_t{ 1 } << 20;
-  static constexpr std::size_t BlockSize = 4 * Largest;
-  static constexpr std::size_t Smallest = 64;
-
-  /** The size of the place for an array: a power of 2, or 5, 6 or 7 eighths of it. */
-  static std::size_t
-  RoundUp(std::size_t bytes)
-  {
-    std::size_t power = Smallest;
-    while (power < bytes)
-    {
-      power *= 2;
-    }
-    const std::size_t step = std::max(power / 8, Smallest / 4);
-    return std::max((bytes + step - 1) / step * step, Smallest);
-  }
-
-  void *
-  do_allocate(std::size_t bytes, std::size_t) override
-  {
-    if (bytes > Largest)
-    {
-      return AllocateBulk(bytes);
-    }
-    const std::size_t size = RoundUp(bytes);
-    const std::lock_guard<std::mutex> lock(m_Mutex);
-    if (void *& freed = m_Freed[size])
-    {
-      return std::exchange(freed, *static_cast<void **>(freed));
-    }
-    if (m_Blocks.empty() || m_Used + size > BlockSize)
-    {
-      m_Blocks.push_back(AllocateBulk(BlockSize));
-      m_Used = 0;
-    }
-    m_Used += size;
-    return static_cast<std::byte *>(m_Blocks.back()) + (m_Used - size);
-  }
-
-  void
-  do_deallocate(void * place, std::size_t bytes, std::size_t) override
-  {
-    if (bytes > Largest)
-    {
-      return FreeBulk(place);
-    }
-    const std::lock_guard<std::mutex> lock(m_Mutex);
-    *static_cast<void **>(place) = std::exchange(m_Freed[RoundUp(bytes)], place);
-  }
-
-  bool
-  do_is_equal(const std::pmr::memory_resource & other) const noexcept override
-  {
-    return this == &other;
-  }
-
-  std::mutex m_Mutex;
-  std::vector<void *> m_Blocks;
-  std::size_t m_Used = 0;                ///< of the last block
-  std::map<std::size_t, void *> m_Freed; ///< by size: the place that was freed last, which holds the one before it
-};
-
 } // namespace
 
 void *
@@ -147,6 +74,10 @@ AllocateBulk(std::size_t bytes)
   if (void * const mapped = MappedBlocks::Get().Map(bytes))
   {
     return mapped;
+  }
+  if (bytes < SmallestHuge)
+  {
+    return NotNull(std::malloc(bytes));
   }
   constexpr std::size_t hugePage = std::size_t{ 1 } << 21;
   void * const block = NotNull(std::aligned_alloc(hugePage, (bytes + hugePage - 1) / hugePage * hugePage));
@@ -157,18 +88,9 @@ AllocateBulk(std::size_t bytes)
 void *
 AllocateSparseBulk(std::size_t bytes, bool isZero)
 {
-  constexpr std::size_t smallest = std::size_t{ 1 } << 22;
-  void * const mapped = bytes < smallest ? nullptr : MappedBlocks::Get().Map(bytes);
+  void * const mapped = bytes < SmallestBulk ? nullptr : MappedBlocks::Get().Map(bytes);
   const std::size_t atLeast = std::max<std::size_t>(bytes, 1);
   return mapped != nullptr ? mapped : NotNull(isZero ? std::calloc(atLeast, 1) : std::malloc(atLeast));
-}
-
-std::shared_ptr<std::pmr::memory_resource>
-ResourceForSmallArrays()
-{
-  using Resource = std::shared_ptr<std::pmr::memory_resource>;
-  return MappedBlocks::Get().FindStore() ? std::make_shared<SmallArrays>()
-                                         : Resource(Resource(), std::pmr::new_delete_resource());
 }
 
 void
@@ -179,6 +101,67 @@ FreeBulk(void * block) noexcept
   const auto node = mapped.blocks.extract(block);
   lock.unlock();
   node.empty() ? std::free(block) : void(); // pages go away with their node
+}
+
+BulkResource::~BulkResource()
+{
+  std::for_each(m_Blocks.begin(), m_Blocks.end(), FreeBulk);
+}
+
+std::size_t
+BulkResource::RoundUp(std::size_t bytes)
+{
+  std::size_t step = 64;
+  while (16 * step <= bytes)
+  {
+    step *= 2;
+  }
+  return std::max((bytes + step - 1) / step, std::size_t{ 1 }) * step;
+}
+
+void *
+BulkResource::do_allocate(std::size_t bytes, std::size_t)
+{
+  constexpr std::size_t smallestBlock = std::size_t{ 1 } << 21;
+  constexpr unsigned int mostDoublings = 5;
+  const std::size_t size = RoundUp(bytes);
+  const std::lock_guard<std::mutex> lock(m_Mutex);
+  if (void *& free = m_Free[size])
+  {
+    return std::exchange(free, *static_cast<void **>(free));
+  }
+  if (size > m_Left)
+  {
+    const auto doublings = std::min<std::size_t>(m_Blocks.size(), mostDoublings);
+    const std::size_t block = std::max(smallestBlock << doublings, size);
+    m_Blocks.reserve(m_Blocks.size() + 1);
+    m_Next = static_cast<std::byte *>(AllocateBulk(block));
+    m_Blocks.push_back(m_Next);
+    m_Left = block;
+  }
+  m_Left -= size;
+  return std::exchange(m_Next, m_Next + size);
+}
+
+void
+BulkResource::do_deallocate(void * array, std::size_t bytes, std::size_t)
+{
+  const std::lock_guard<std::mutex> lock(m_Mutex);
+  *static_cast<void **>(array) = std::exchange(m_Free[RoundUp(bytes)], array);
+}
+
+bool
+BulkResource::do_is_equal(const std::pmr::memory_resource & other) const noexcept
+{
+  return this == &other;
+}
+
+std::shared_ptr<std::pmr::memory_resource>
+ResourceForSmallArrays()
+{
+  using Resource = std::shared_ptr<std::pmr::memory_resource>;
+  return MappedBlocks::Get().FindStore() ? std::make_shared<BulkResource>()
+                                         : Resource(Resource(), std::pmr::new_delete_resource());
 }
 
 BulkInTemporaryFiles::BulkInTemporaryFiles(const TemporaryStore & store)

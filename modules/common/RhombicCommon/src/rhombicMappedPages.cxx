@@ -15,6 +15,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <utility>
 
 namespace rhombic
 {
@@ -71,7 +72,13 @@ MappedPages::~MappedPages()
   {
     munmap(m_Address, m_Size);
   }
-  close(m_File);
+  this->CloseFile();
+}
+
+void
+MappedPages::CloseFile()
+{
+  m_File >= 0 ? close(std::exchange(m_File, -1)) : 0;
 }
 
 void

@@ -1,6 +1,6 @@
 #include "itkFCCLabelWeights.h"
 
-#include "rhombicSparseBulk.h"
+#include "rhombicBulkResource.h"
 
 #include <algorithm>
 #include <numeric>

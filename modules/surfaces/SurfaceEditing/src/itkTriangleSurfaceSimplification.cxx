@@ -2,8 +2,8 @@
 
 #include "detail/itkPositionArithmetic.h"
 #include "itkTriangleSurfaceIntersections.h"
-#include "itkBulkResource.h"
 #include "itkEdgeCollapse.h"
+#include "rhombicBulkResource.h"
 #include "rhombicForEachBlock.h"
 #include "itkTrianglePartition.h"
 #include "itkTriangleProximity.h"
@@ -851,7 +851,7 @@ private:
   TriangleSurface::Pointer m_Before;
   Sheets m_SheetsBefore;
   SurfacePoints m_Points;               ///< before the step
-  std::optional<BulkResource> m_Memory; ///< of the patches
+  std::optional<rhombic::BulkResource> m_Memory; ///< of the patches
   std::vector<Patch> m_Patches;
   std::vector<TriangleId> m_Begin; ///< first triangle of each patch in m_State, and the end of the last
   Flags m_IsNew;                   ///< for each triangle of m_State, whether it was not there before the step

@@ -39,13 +39,13 @@ public:
       throw std::bad_array_new_length();
     }
     const std::size_t bytes = count * sizeof(T);
-    return static_cast<T *>(bytes < SmallestBulk ? ::operator new(bytes) : rhombic::AllocateBulk(bytes));
+    return static_cast<T *>(bytes < rhombic::SmallestBulk ? ::operator new(bytes) : rhombic::AllocateBulk(bytes));
   }
 
   void
   deallocate(T * block, std::size_t count) noexcept
   {
-    count * sizeof(T) < SmallestBulk ? ::operator delete(block) : rhombic::FreeBulk(block);
+    count * sizeof(T) < rhombic::SmallestBulk ? ::operator delete(block) : rhombic::FreeBulk(block);
   }
 
   template <typename U, typename... TArguments>
@@ -72,9 +72,6 @@ public:
   {
     return false;
   }
-
-private:
-  static constexpr std::size_t SmallestBulk = std::size_t{ 1 } << 22;
 };
 
 template <typename T>
