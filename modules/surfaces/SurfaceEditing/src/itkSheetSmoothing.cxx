@@ -14,7 +14,7 @@ constexpr unsigned int NormalSteps = 4;
 
 /** A number or a vector for each point. */
 template <std::size_t VDimension>
-using Values = std::vector<std::array<float, VDimension>>;
+using Values = BulkVector<std::array<float, VDimension>>;
 
 /** The coefficients of the Chebyshev polynomials of which the filter is the sum. Those of an ideal low-pass filter, by
  * a Hamming window; their sum is 1, so that what is the same everywhere stays. */

@@ -11,7 +11,7 @@ namespace rhombic
 namespace
 {
 
-using Points = std::vector<std::uint32_t>;
+using Points = itk::BulkVector<std::uint32_t>;
 using Sides = std::array<std::uint32_t, 2>;
 using Triangles = itk::TriangleSurface::TrianglesContainer;
 

@@ -19,7 +19,7 @@ struct Side
 std::size_t
 CountLoneJunctions(const JoinedSurfaces & joined)
 {
-  std::vector<Side> sides;
+  itk::BulkVector<Side> sides;
   for (std::uint32_t n = 0; n < joined.sides.size(); ++n)
   {
     const auto & triangle = joined.surface->GetTriangles()[n];
@@ -50,7 +50,7 @@ CountLoneJunctions(const JoinedSurfaces & joined)
 std::size_t
 CountRepeated(const itk::TriangleSurface & surface)
 {
-  std::vector<itk::TriangleSurface::TriangleType> triangles(surface.GetTriangles().begin(),
+  itk::TriangleSurface::TrianglesContainer triangles(surface.GetTriangles().begin(),
                                                             surface.GetTriangles().end());
   for (auto & triangle : triangles)
   {

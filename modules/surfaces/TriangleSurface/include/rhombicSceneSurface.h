@@ -49,10 +49,10 @@ struct JoinedSurfaces
   itk::TriangleSurface::Pointer surface; ///< as the first surface with the triangle has it; without normals
 
   /** For each triangle the numbers of the two surfaces that have it, from 1, ascending; 0 for none as the second. */
-  std::vector<std::array<std::uint32_t, 2>> sides;
+  itk::BulkVector<std::array<std::uint32_t, 2>> sides;
 
   /** For each of the surfaces, the joined points that its points are. */
-  std::vector<std::vector<std::uint32_t>> points;
+  std::vector<itk::BulkVector<std::uint32_t>> points;
 };
 
 /** Triangles keep their order. Triangles that are in the surfaces more than once otherwise, as where surfaces overlap,

@@ -42,16 +42,16 @@ HaveSamePoints(const Face & a, const Face & b)
 }
 
 /** The faces ordered by their points, and by their numbers where points are equal. */
-std::vector<Face>
-Ordered(const std::vector<Face> & faces, std::size_t numberOfPoints)
+itk::BulkVector<Face>
+Ordered(const itk::BulkVector<Face> & faces, std::size_t numberOfPoints)
 {
-  std::vector<std::size_t> places(numberOfPoints + 1); // of the faces with a lowest point
+  itk::BulkVector<std::size_t> places(numberOfPoints + 1, 0); // of the faces with a lowest point
   for (const Face & face : faces)
   {
     ++places[face.points[0] + 1];
   }
   std::partial_sum(places.begin(), places.end(), places.begin());
-  std::vector<Face> ordered(faces.size());
+  itk::BulkVector<Face> ordered(faces.size());
   for (const Face & face : faces)
   {
     ordered[places[face.points[0]]++] = face;
@@ -70,10 +70,10 @@ Ordered(const std::vector<Face> & faces, std::size_t numberOfPoints)
 }
 
 /** For each triangle the number of the triangle that it is turned over, or its own number. */
-std::vector<std::uint32_t>
-FindOpposites(const std::vector<Face> & faces)
+itk::BulkVector<std::uint32_t>
+FindOpposites(const itk::BulkVector<Face> & faces)
 {
-  std::vector<std::uint32_t> opposites(faces.size());
+  itk::BulkVector<std::uint32_t> opposites(faces.size());
   for (auto begin = faces.begin(); begin != faces.end();)
   {
     const auto end = std::find_if(begin, faces.end(), [&](const Face & face) { return !HaveSamePoints(face, *begin); });
@@ -97,12 +97,12 @@ JoinSurfaces(const std::vector<SceneSurface> & surfaces)
   joined.surface = itk::TriangleSurface::New();
   PointWelder welder(joined.surface->GetPoints());
   itk::TriangleSurface::TrianglesContainer triangles;
-  std::vector<Face> faces;
-  std::vector<std::uint32_t> surfaceOf;
+  itk::BulkVector<Face> faces;
+  itk::BulkVector<std::uint32_t> surfaceOf;
   for (std::size_t n = 0; n < surfaces.size(); ++n)
   {
     const itk::TriangleSurface & surface = *surfaces[n].surface;
-    std::vector<std::uint32_t> & numbers = joined.points.emplace_back();
+    itk::BulkVector<std::uint32_t> & numbers = joined.points.emplace_back();
     numbers.reserve(surface.GetNumberOfPoints());
     for (const auto & point : surface.GetPoints())
     {
@@ -115,7 +115,7 @@ JoinSurfaces(const std::vector<SceneSurface> & surfaces)
       surfaceOf.push_back(static_cast<std::uint32_t>(n + 1));
     }
   }
-  const std::vector<std::uint32_t> opposites = FindOpposites(Ordered(faces, joined.surface->GetNumberOfPoints()));
+  const itk::BulkVector<std::uint32_t> opposites = FindOpposites(Ordered(faces, joined.surface->GetNumberOfPoints()));
   for (std::uint32_t n = 0; n < triangles.size(); ++n)
   {
     if (opposites[n] >= n)
