@@ -52,6 +52,16 @@ CheckMesh(MeshEstimate & mesh, const MeshScanSettings & settings);
 TemporaryStore
 SurfaceStore(const MeshEstimate & mesh, const MeshScanSettings & settings);
 
+/** Counts what is done to the surfaces of labels, too, and returns whether the work needs temporary files, as the memory
+ * that is allowed can't hold it. Throws Failure(Memory) where there is no room for them, or where probabilities, or
+ * colours by a label map, need memory. */
+bool
+CheckLabels(LabelWork & work, const MeshScanSettings & settings);
+
+/** Temporary files for labels and their surfaces. */
+TemporaryStore
+LabelStore(const MeshScanSettings & settings);
+
 /** Writes surfaces of a scan; returns all files. Measures and the distance from the scan's isosurface are taken
  * while a file is written, and hold for it, as it is read back and compared; the audit is that of the surface read
  * back. Notes give the main figures; sidecars and the table hold all of them, and what finishing changed. All files

@@ -77,8 +77,9 @@ struct SurfaceMaking
   const SurfaceFinish & finish; ///< of each surface; combined with that of its request
   SurfaceUse use;
   const Events & events;
-  std::optional<itk::ImageRegion<3>> part = std::nullopt; ///< of the label map: see LabelSurfaceSettings::part
-  const SurfaceViewing * viewing = nullptr;               ///< for isosurfaces that are only looked at
+  std::optional<itk::ImageRegion<3>> part = std::nullopt;       ///< of the label map: see LabelSurfaceSettings::part
+  const SurfaceViewing * viewing = nullptr;                     ///< for isosurfaces that are only looked at
+  std::function<void(const LabelWork & work)> checkLabels = {}; ///< see LabelSurfaceSettings::check
 };
 
 /** Extracts isosurfaces and labels, in this order. Walls between labels are refined here, once for both sides. The

@@ -194,6 +194,7 @@ struct SurfacePlanning
   const SurfaceSelection & surfaces;
   const fs::path & output;
   std::function<void(MeshEstimate & mesh)> check;
+  std::function<bool(LabelWork & work)> checkLabels; ///< returns whether they are put into temporary files
   bool isMeasured; ///< whether the volume that isosurfaces enclose is estimated from the lattice
 };
 
@@ -225,6 +226,46 @@ FindRequests(const std::vector<SurfaceRequest> & requests, const ScanImage & sli
   return isRead ? requests : std::vector<SurfaceRequest>();
 }
 
+std::string
+DescribeSurfaces(const SurfacePlanning & planning, double triangles, std::uintmax_t temporaryBytes)
+{
+  const double bytes = triangles * BytesOfTriangle(planning.output);
+  return "surfaces      some " + FormatNumber(triangles / 1e6, 2) + " million triangles" +
+         (bytes > 0.0 ? ", " + DescribeBytes(static_cast<std::uintmax_t>(bytes)) + " in " + planning.output.string()
+                      : "") +
+         (temporaryBytes > 0 ? "; while they are made, " + DescribeBytes(temporaryBytes) + " in temporary files in " +
+                                 TemporaryStore{ planning.source.read.temporaryFolder, {} }.FindFolder().string()
+                             : "") +
+         '\n';
+}
+
+/** The plan of surfaces of a label map, of which the voxels are read, unless they have to be put into a temporary file.
+ */
+std::string
+PlanLabels(const SurfacePlanning & planning, const UnreadSource & unread)
+{
+  const ScanSource & source = planning.source;
+  std::string text = "voxels        " + DescribePlace(unread, source.read) + '\n';
+  std::uintmax_t bytes = unread.CountInMemory();
+  if (unread.place == VoxelPlace::TemporaryFile)
+  {
+    text += "surfaces      not known before the voxels are read\n";
+  }
+  else
+  {
+    const LoadedSource loaded = LoadSource(source, planning.surfaces, std::nullopt, {});
+    LabelSurfaceSettings settings;
+    settings.labels = planning.surfaces.labels->labels;
+    settings.density = source.lattice.density;
+    LabelWork work = EstimateLabelWork(*loaded.labels, settings);
+    const bool isInFiles = planning.checkLabels(work);
+    text += DescribeSurfaces(planning, work.triangles, isInFiles ? work.bytes : 0);
+    bytes += isInFiles ? 0 : work.bytes;
+  }
+  return text + "memory        " + DescribeMemory(bytes, source.read.maximumMemory) + '\n' +
+         DescribeUnwritten(planning.output);
+}
+
 /** The plan of surfaces in a file or picture. */
 std::string
 PlanSurfaces(const SurfacePlanning & planning, const Events & events)
@@ -236,6 +277,10 @@ PlanSurfaces(const SurfacePlanning & planning, const Events & events)
   }
   const UnreadSource unread = OpenSource(source);
   const std::vector<SurfaceRequest> & requests = planning.surfaces.requests;
+  if (requests.empty() && planning.surfaces.labels && planning.surfaces.labels->source.IsEmpty())
+  {
+    return PlanLabels(planning, unread);
+  }
   const itk::Size<3> size = GeometryOf(unread.file.scan.image).GetLargestPossibleRegion().GetSize();
   std::vector<std::size_t> pairs = FindSlicePairs(size);
   const ScanImage slices = ReadSlicePairs(unread.file, pairs);
@@ -267,15 +312,7 @@ PlanSurfaces(const SurfacePlanning & planning, const Events & events)
   }
   if (!known.empty())
   {
-    const double bytes = mesh.triangles * BytesOfTriangle(planning.output);
-    text += "surfaces      some " + FormatNumber(mesh.triangles / 1e6, 2) + " million triangles" +
-            (bytes > 0.0 ? ", " + DescribeBytes(static_cast<std::uintmax_t>(bytes)) + " in " + planning.output.string()
-                         : "") +
-            (mesh.temporaryBytes > 0
-               ? "; while they are made, " + DescribeBytes(mesh.temporaryBytes) + " in temporary files in " +
-                   TemporaryStore{ source.read.temporaryFolder, {} }.FindFolder().string()
-               : "") +
-            '\n';
+    text += DescribeSurfaces(planning, mesh.triangles, mesh.temporaryBytes);
     text +=
       "time          " + DescribeTime(EstimateSeconds(unread, plan, CountPasses(planning), mesh.triangles)) + '\n';
   }
@@ -295,7 +332,8 @@ PlanMeshScan(const MeshScanSettings & settings, const Events & events)
 {
   CheckOutputs(CheckMeshScan(settings), settings.source, settings.surfaces, InputsOf(settings.colourBy));
   const auto check = [&settings](MeshEstimate & mesh) { CheckMesh(mesh, settings); };
-  return PlanSurfaces({ settings.source, settings.surfaces, settings.mesh, check, true }, events);
+  const auto checkLabels = [&settings](LabelWork & work) { return CheckLabels(work, settings); };
+  return PlanSurfaces({ settings.source, settings.surfaces, settings.mesh, check, checkLabels, true }, events);
 }
 
 std::string
@@ -305,7 +343,11 @@ PlanPictures(const ScanSource & source,
              const Events & events)
 {
   const auto check = [&source](const MeshEstimate & mesh) { CheckDrawnMesh(mesh, source.lattice); };
-  return PlanSurfaces({ source, surfaces, picture, check, false }, events);
+  const auto checkLabels = [&source](const LabelWork & work) {
+    RequireMemory(work, source.lattice.maximumMemory);
+    return false;
+  };
+  return PlanSurfaces({ source, surfaces, picture, check, checkLabels, false }, events);
 }
 
 std::string

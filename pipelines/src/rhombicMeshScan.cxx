@@ -394,13 +394,19 @@ AdviseCoarser(const LatticeSettings & lattice, double share)
   return "use " + coarser + "another threshold or a part of the scan";
 }
 
+/** Whether surfaces are coloured by those of a label map, which are made in memory. */
+bool
+AreColouredByLabels(const MeshScanSettings & settings)
+{
+  const auto & by = settings.colourBy;
+  return by && by->kind == ColourBy::Kind::Distance && !IsSurfacePath(by->file);
+}
+
 /** Whether all arrays of the surfaces' size may be in temporary files. */
 bool
 MayBeInTemporaryFiles(const MeshScanSettings & settings)
 {
-  const auto & by = settings.colourBy;
-  const bool makesLabels = by && by->kind == ColourBy::Kind::Distance && !IsSurfacePath(by->file);
-  return MayBeInSlabs(settings.surfaces.requests) && !makesLabels;
+  return MayBeInSlabs(settings.surfaces.requests) && !AreColouredByLabels(settings);
 }
 
 /** The bytes that all may take, and surfaces, less than which the program itself takes. */
@@ -440,6 +446,19 @@ std::string
 DescribeTriangles(double triangles)
 {
   return "some " + FormatFixed(triangles / 1e6, triangles < 1e7 ? 2 : 0) + " million triangles";
+}
+
+void
+NoteTemporaryFiles(const std::string & what,
+                   double triangles,
+                   std::uintmax_t bytes,
+                   const MeshScanSettings & settings,
+                   const Events & events)
+{
+  events.Note(what + ", " + DescribeTriangles(triangles) + ", are put into temporary files of some " +
+              DescribeBytes(bytes) + " in " +
+              TemporaryStore{ settings.source.read.temporaryFolder, {} }.FindFolder().string() +
+              ", as they do not fit into the memory that is allowed");
 }
 
 } // namespace
@@ -522,6 +541,30 @@ CheckMesh(MeshEstimate & mesh, const MeshScanSettings & settings)
   }
 }
 
+bool
+CheckLabels(LabelWork & work, const MeshScanSettings & settings)
+{
+  MeshEstimate walls;
+  walls.triangles = work.triangles;
+  CountSteps({ !settings.finish.smoothing.IsNothing(), settings.finish.Simplifies(), settings.colourBy.has_value() },
+             walls);
+  work.bytes = std::max(work.bytes, walls.bytes.afterwards);
+  const std::uintmax_t limit = settings.source.lattice.maximumMemory;
+  if (work.bytes <= MemoryAllowance(limit) || work.isOfProbabilities || AreColouredByLabels(settings))
+  {
+    RequireMemory(work, limit);
+    return false;
+  }
+  RequireRoom(LabelStore(settings), work.bytes);
+  return true;
+}
+
+TemporaryStore
+LabelStore(const MeshScanSettings & settings)
+{
+  return { settings.source.read.temporaryFolder, "Cannot make surfaces of labels: their arrays" };
+}
+
 std::vector<MadeFile>
 MeshScan(const MeshScanSettings & settings, const Events & events, std::optional<SourceVolume> volume)
 {
@@ -533,17 +576,21 @@ MeshScan(const MeshScanSettings & settings, const Events & events, std::optional
     CheckMesh(mesh, settings);
     if (mesh.temporaryBytes > 0)
     {
-      const TemporaryStore store = SurfaceStore(mesh, settings);
-      temporary.emplace(store);
-      events.Note("the surfaces, " + DescribeTriangles(mesh.triangles) + ", are put into temporary files of some " +
-                  DescribeBytes(mesh.temporaryBytes) + " in " + store.FindFolder().string() +
-                  ", as they do not fit into the memory that is allowed");
+      temporary.emplace(SurfaceStore(mesh, settings));
+      NoteTemporaryFiles("the surfaces", mesh.triangles, mesh.temporaryBytes, settings, events);
     }
   };
   LoadedSource loaded = LoadSource(source, settings.surfaces, std::move(volume), events);
   CheckNumberOfSurfaces(loaded, settings);
   Report sourceReport = ReportSource(loaded, settings.source);
-  const SurfaceMaking making{ settings.source, settings.surfaces, settings.finish, SurfaceUse::Files, events };
+  SurfaceMaking making{ settings.source, settings.surfaces, settings.finish, SurfaceUse::Files, events };
+  making.checkLabels = [&](LabelWork work) {
+    if (CheckLabels(work, settings))
+    {
+      temporary.emplace(LabelStore(settings));
+      NoteTemporaryFiles("labels and their surfaces", work.triangles, work.bytes, settings, events);
+    }
+  };
   std::vector<MeshedSurface> surfaces = ExtractSource(making, loaded, StoresNormals(settings.mesh));
   const std::string frame =
     loaded.FindScan() != nullptr ? ReadDicomExamination(*loaded.FindScan()).frameOfReference : "";

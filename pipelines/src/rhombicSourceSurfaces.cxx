@@ -92,10 +92,10 @@ AddLabels(const SurfaceMaking & making, const LoadedSource & loaded, std::vector
   }
   SurfaceFinish smoothing;
   smoothing.smoothing = making.finish.smoothing;
-  LabelMesh mesh =
-    LabelsToWalls(*loaded.labels,
-                  { making.selection.labels->labels, lattice.density, lattice.maximumMemory, making.part },
-                  making.events);
+  LabelMesh mesh = LabelsToWalls(
+    *loaded.labels,
+    { making.selection.labels->labels, lattice.density, lattice.maximumMemory, making.part, making.checkLabels },
+    making.events);
   const bool isMeasured =
     isForFiles || smoothing.smoothing.IsNothing(); // else the surfaces would be extracted for it alone
   std::vector<std::optional<ExtractedSize>> extracted(mesh.labels.size());

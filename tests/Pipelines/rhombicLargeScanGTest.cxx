@@ -16,6 +16,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <functional>
@@ -173,6 +174,36 @@ protected:
     std::generate_n(
       image->GetBufferPointer(), edge * edge * edge, [&random] { return static_cast<std::uint8_t>(random() % 256); });
     const fs::path path = m_Folder.Path() / "noise.nii";
+    rhombic::WriteScan(rhombic::ScanImage(image), path);
+    return path;
+  }
+
+  /** A ball of eleven labels that touch, and of background. */
+  fs::path
+  WriteLabels() const
+  {
+    using Image = itk::Image<std::uint8_t, 3>;
+    const auto image = Image::New();
+    image->SetRegions(itk::Size<3>{ { 100, 80, 80 } });
+    image->Allocate();
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> place(-38.0, 38.0);
+    std::array<std::array<double, 3>, 12> middles{}; // of the labels, and of 0
+    for (auto & middle : middles)
+    {
+      std::generate(middle.begin(), middle.end(), [&] { return place(random); });
+    }
+    for (itk::ImageRegionIteratorWithIndex<Image> it(image, image->GetBufferedRegion()); !it.IsAtEnd(); ++it)
+    {
+      const double x = static_cast<double>(it.GetIndex()[0]) - 49.5;
+      const double y = static_cast<double>(it.GetIndex()[1]) - 39.5;
+      const double z = static_cast<double>(it.GetIndex()[2]) - 39.5;
+      const auto nearest = std::min_element(middles.begin(), middles.end(), [&](const auto & a, const auto & b) {
+        return std::hypot(a[0] - x, a[1] - y, a[2] - z) < std::hypot(b[0] - x, b[1] - y, b[2] - z);
+      });
+      it.Set(static_cast<std::uint8_t>(std::hypot(x, y, z) < 38.0 ? nearest - middles.begin() : 0));
+    }
+    const fs::path path = m_Folder.Path() / "labels.nii";
     rhombic::WriteScan(rhombic::ScanImage(image), path);
     return path;
   }
@@ -602,6 +633,71 @@ TEST_F(LargeScan, FinishedMeshesBeyondTheMemoryAreTheSameByTemporaryFiles)
   fs::copy_file(m_Folder.Path() / "mesh.ply", other);
   expectSame("coloured by distances",
              [&](auto & settings) { settings.colourBy = rhombic::ParseColourBy("distance:" + other.string()); });
+}
+
+TEST_F(LargeScan, LabelsBeyondTheMemoryAreTheSameByTemporaryFiles)
+{
+  const fs::path path = this->WriteLabels();
+  if (const std::string obstacle = rhombic::FindObstacle({ m_Folder.Path(), {} }, Plenty); !obstacle.empty())
+  {
+    GTEST_SKIP() << obstacle;
+  }
+  const auto expectSame = [&](const std::string & what, const std::function<void(rhombic::MeshScanSettings &)> & set) {
+    SCOPED_TRACE(what);
+    rhombic::MeshScanSettings settings;
+    settings.source = this->SourceOf(path, Plenty);
+    settings.source.read.temporaryFolder = m_Folder.Path();
+    settings.mesh = m_Folder.Path() / "mesh.vtp";
+    settings.surfaces.labels.emplace();
+    set(settings);
+    const Outcome whole = this->Mesh(settings);
+    EXPECT_EQ(whole.notes.find("temporary files"), std::string::npos) << whole.notes;
+    settings.source.read.maximumMemory = 500'000; // of 640 kB
+    settings.source.lattice.maximumMemory = 10'000'000;
+    const std::string plan = rhombic::PlanMeshScan(settings, {});
+    EXPECT_NE(plan.find(" in temporary files in " + m_Folder.Path().string()), std::string::npos) << plan;
+    Outcome files = this->Mesh(settings);
+    for (const char * const more : { "the voxels stay in their file", "labels and their surfaces, some" })
+    {
+      const std::size_t note = files.notes.find(more);
+      ASSERT_NE(note, std::string::npos) << files.notes;
+      files.notes.erase(note, files.notes.find('\n', note) + 1 - note);
+    }
+    EXPECT_EQ(files.notes, whole.notes);
+    EXPECT_EQ(files.bytes == whole.bytes, true);
+  };
+  expectSame("walls", [](auto & settings) { settings.audits = true; });
+  expectSame("some", [](auto & settings) { settings.surfaces.labels->labels = { "2", "3" }; });
+  expectSame("smoothed", [](auto & settings) { settings.finish.smoothing.spacings = 0.3; });
+  expectSame("fewer", [](auto & settings) { settings.finish.share = 0.5; });
+  expectSame("another format", [](auto & settings) { settings.mesh.replace_extension(".glb"); });
+  expectSame("coloured by thickness", [](auto & settings) { settings.colourBy = rhombic::ParseColourBy("thickness"); });
+}
+
+TEST_F(LargeScan, LabelsBeyondTheMemoryAreRefusedWithoutRoom)
+{
+  rhombic::MeshScanSettings settings;
+  settings.source = this->SourceOf(this->WriteLabels(), 10'000'000);
+  settings.source.read.temporaryFolder = m_Folder.Path() / "none";
+  settings.mesh = m_Folder.Path() / "mesh.vtp";
+  settings.surfaces.labels.emplace();
+  const auto expectRefused = [](const auto & work) {
+    try
+    {
+      work();
+      ADD_FAILURE() << "not refused";
+    }
+    catch (const rhombic::Failure & failure)
+    {
+      EXPECT_EQ(failure.GetKind(), rhombic::FailureKind::Memory);
+      const std::string sentence = failure.GetDescription();
+      EXPECT_EQ(sentence.rfind("Cannot make surfaces of labels: their arrays are too large for the memory", 0), 0u)
+        << sentence;
+    }
+  };
+  expectRefused([&] { rhombic::PlanMeshScan(settings, {}); });
+  expectRefused([&] { this->Mesh(settings); });
+  EXPECT_FALSE(fs::exists(settings.mesh));
 }
 
 TEST_F(LargeScan, MeshesBeyondTheMemoryAreRefusedBeforeWorkThatNeedsThemThere)

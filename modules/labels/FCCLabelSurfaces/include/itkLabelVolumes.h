@@ -57,7 +57,7 @@ private:
   Measure(const LabelWalls & walls, std::size_t count, const TIdOf & idOf);
 
   const std::array<double, 3> m_Origin; ///< of volumes
-  std::vector<Share> m_Shares;          ///< by triangle
+  BulkVector<Share> m_Shares;           ///< by triangle
   std::map<LabelWalls::LabelPairType, double> m_Areas;
   std::vector<double> m_Volumes;
 };

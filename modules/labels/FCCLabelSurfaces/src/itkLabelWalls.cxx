@@ -23,7 +23,7 @@ TakeUsedPoints(const TriangleSurface::PointsContainer & points, TriangleSurface:
     first = std::min({ first, a, b, c });
     last = std::max({ last, a, b, c });
   }
-  std::vector<std::uint32_t> numbers(triangles.empty() ? 0 : last - first + std::size_t{ 1 }, unused);
+  BulkVector<std::uint32_t> numbers(triangles.empty() ? 0 : last - first + std::size_t{ 1 }, unused);
   for (auto & triangle : triangles)
   {
     for (std::uint32_t & point : triangle)

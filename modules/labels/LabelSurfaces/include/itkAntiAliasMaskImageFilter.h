@@ -2,12 +2,12 @@
 #define itkAntiAliasMaskImageFilter_h
 
 #include "itkImage.h"
+#include "itkBulkAllocator.h"
 #include "itkImageToImageFilter.h"
 
 #include <array>
 #include <functional>
 #include <cstdint>
-#include <vector>
 
 namespace itk
 {
@@ -113,17 +113,17 @@ public:
 
   /** The inside voxels in no 2 x 2 x 2 block of inside voxels, and the inside and outside voxels that were protected in
    * the last update, by their offsets in the buffer, ascending. */
-  const std::vector<SizeValueType> &
+  const BulkVector<SizeValueType> &
   GetThinVoxels() const
   {
     return m_ThinVoxels;
   }
-  const std::vector<SizeValueType> &
+  const BulkVector<SizeValueType> &
   GetProtectedVoxels() const
   {
     return m_ProtectedVoxels;
   }
-  const std::vector<SizeValueType> &
+  const BulkVector<SizeValueType> &
   GetProtectedOutsideVoxels() const
   {
     return m_ProtectedOutsideVoxels;
@@ -148,9 +148,9 @@ protected:
 private:
   PeriodType m_SamplePeriod{ { 1, 1, 1 } };
   bool m_ProtectSpecksOnly{ false };
-  std::vector<SizeValueType> m_ThinVoxels;
-  std::vector<SizeValueType> m_ProtectedVoxels;
-  std::vector<SizeValueType> m_ProtectedOutsideVoxels;
+  BulkVector<SizeValueType> m_ThinVoxels;
+  BulkVector<SizeValueType> m_ProtectedVoxels;
+  BulkVector<SizeValueType> m_ProtectedOutsideVoxels;
   NeededType m_IsNeeded;
 };
 

@@ -13,6 +13,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,14 @@ namespace rhombic
 
 /** \file
  * Surfaces of labels. Those of labels that touch share their wall. Copies of a LabelSurface share its surface. */
+
+/** What it takes to make surfaces of labels. */
+struct LabelWork
+{
+  std::uintmax_t bytes = 0; ///< in memory, besides the map; in temporary files where there is a BulkInTemporaryFiles
+  double triangles = 0.0;   ///< of the walls
+  bool isOfProbabilities = false; ///< which are in memory in any case
+};
 
 /** Which labels get a surface, and how it is made. */
 struct LabelSurfaceSettings
@@ -35,7 +44,19 @@ struct LabelSurfaceSettings
    * within some hundredths of a voxel; farther away they are missing. Nothing: all voxels. Without effect on
    * probabilities. */
   std::optional<itk::ImageRegion<3>> part = std::nullopt;
+
+  /** Is called before the work, and throws to refuse it. Empty: Failure(Memory) for more than the maximum. */
+  std::function<void(const LabelWork & work)> check = {};
 };
+
+/** Estimates the work of LabelsToWalls() and of what follows it, from the faces between voxels of different labels:
+ * mostly within 15 % of what is measured. Throws as LabelsToWalls() for \a settings.labels. */
+LabelWork
+EstimateLabelWork(const LabelMap & map, const LabelSurfaceSettings & settings);
+
+/** Throws Failure(Memory) for work that takes more than the maximum. */
+void
+RequireMemory(const LabelWork & work, std::uintmax_t maximumMemory);
 
 /** A label and its surface, in the label's name, colour and opacity, and how it compares with the label's voxels. */
 struct LabelSurface

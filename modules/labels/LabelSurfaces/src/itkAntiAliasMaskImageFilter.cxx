@@ -619,7 +619,7 @@ ForEachPart(const MaskWork & work, const VoxelBand & band, const TTest & isMembe
     {
       return;
     }
-    std::vector<SizeValueType> part{ first };
+    BulkVector<SizeValueType> part{ first };
     isSeen[first] = 1;
     for (SizeValueType n = 0; n < part.size(); ++n)
     {
@@ -655,7 +655,7 @@ AreConnected(std::vector<Index<3>> voxels)
 /** Whether a part sticks out of other voxels of its class, and connects them with nothing. */
 template <typename TTest>
 bool
-IsSpur(const MaskWork & work, const std::vector<SizeValueType> & part, const TTest & isMember)
+IsSpur(const MaskWork & work, const BulkVector<SizeValueType> & part, const TTest & isMember)
 {
   std::vector<Index<3>> base; // voxels that the part sticks out of
   for (const SizeValueType voxel : part)
@@ -686,7 +686,7 @@ FindForms(const MaskWork & work, const VoxelBand & band, VoxelForms & forms)
     });
   });
   const auto isThin = [&forms](SizeValueType voxel) { return forms[voxel] != VoxelForm::Thick; };
-  ForEachPart(work, band, isThin, [&](const std::vector<SizeValueType> & part) {
+  ForEachPart(work, band, isThin, [&](const BulkVector<SizeValueType> & part) {
     const VoxelForm form = part.size() >= SmallestSheet ? VoxelForm::Sheet
                            : IsSpur(work, part, isThin) ? VoxelForm::Spur
                                                         : VoxelForm::SmallPart;
@@ -708,7 +708,7 @@ KeepProtected(const MaskWork & work, const VoxelForms & forms, const VoxelBand &
     isNarrow[voxel] &= work.GetDepth(voxel) < -Lost && !isUnprotectedForm ? 1 : 0;
   });
   const auto isMember = [&isNarrow](SizeValueType voxel) { return isNarrow[voxel] != 0; };
-  ForEachPart(work, band, isMember, [&](const std::vector<SizeValueType> & part) {
+  ForEachPart(work, band, isMember, [&](const BulkVector<SizeValueType> & part) {
     if (part.size() <= LargestSpur && IsSpur(work, part, isMember))
     {
       for (const SizeValueType voxel : part)
@@ -763,10 +763,10 @@ PutTubes(const MaskWork & work, const VoxelBand & band, const VoxelSet & isProte
 
 /** The voxels of one class in a band that pass a test, ascending. */
 template <typename TTest>
-std::vector<SizeValueType>
+BulkVector<SizeValueType>
 ListClass(const MaskWork & work, const VoxelBand & band, bool isInside, const TTest & test)
 {
-  std::vector<SizeValueType> voxels;
+  BulkVector<SizeValueType> voxels;
   work.ForEachVoxelInOrder(band, [&](SizeValueType voxel) {
     if (test(voxel) && work.IsInside(voxel) == isInside)
     {

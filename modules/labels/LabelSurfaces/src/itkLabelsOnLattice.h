@@ -82,10 +82,10 @@ private:
  * \param region the voxels of the mask that count
  * \param thin offsets of the thin voxels in the mask's buffer, ascending
  * \param placeVoxel gives the position of a voxel's centre in lattice coordinates; is called on several threads */
-std::vector<FCCLattice::SiteType>
+BulkVector<FCCLattice::SiteType>
 FindThinPartSites(const Image<std::uint8_t, 3> & mask,
                   const ImageRegion<3> & region,
-                  const std::vector<SizeValueType> & thin,
+                  const BulkVector<SizeValueType> & thin,
                   const std::function<std::array<double, 3>(const Index<3> &)> & placeVoxel);
 
 } // namespace itk

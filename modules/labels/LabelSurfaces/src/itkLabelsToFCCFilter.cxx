@@ -425,13 +425,13 @@ ResampleField(const CartesianToFCCRows & rows,
 }
 
 /** The sites nearest to some voxels of an image in the refined map. */
-std::vector<FCCLattice::SiteType>
+BulkVector<FCCLattice::SiteType>
 FindNearestSites(const RefinedMap & map,
                  const MaskImage & mask,
-                 const std::vector<SizeValueType> & voxels,
+                 const BulkVector<SizeValueType> & voxels,
                  const Lattice & labels)
 {
-  std::vector<FCCLattice::SiteType> sites;
+  BulkVector<FCCLattice::SiteType> sites;
   std::transform(voxels.begin(), voxels.end(), std::back_inserter(sites), [&](SizeValueType voxel) {
     const Index<3> index = mask.ComputeIndex(static_cast<OffsetValueType>(voxel));
     return FCCLattice::NearestSite(labels.TransformPhysicalPointToLattice(map.GetPosition(index)));
@@ -440,11 +440,11 @@ FindNearestSites(const RefinedMap & map,
 }
 
 /** The sites nearest to the voxels of label 0 that the field of another label protects. */
-std::vector<FCCLattice::SiteType>
+BulkVector<FCCLattice::SiteType>
 FindLockedOfZero(const RefinedMap & map, const AntiAliasMaskImageFilter & field, const Lattice & labels)
 {
   const MaskImage & mask = *field.GetInput();
-  std::vector<SizeValueType> voxels = field.GetProtectedOutsideVoxels();
+  BulkVector<SizeValueType> voxels = field.GetProtectedOutsideVoxels();
   const auto isOfOther = [&](SizeValueType voxel) {
     const Index<3> index = mask.ComputeIndex(static_cast<OffsetValueType>(voxel));
     return map.GetNearestRow(index)[map.GetNearest(0, index[0])] != 0;
@@ -460,7 +460,7 @@ FindCandidates(const RefinedMap & map,
                const AntiAliasMaskImageFilter & field,
                LabelType label,
                const Lattice & labels,
-               std::vector<FCCLattice::SiteType> locked)
+               BulkVector<FCCLattice::SiteType> locked)
 {
   const MaskImage & mask = *field.GetInput();
   const auto place = [&](const Index<3> & voxel) {
@@ -491,7 +491,7 @@ struct LabelInBox
   ImageRegion<3> voxels; ///< of the refined map, on which the weights at the sites depend
   FieldLattice::Pointer weights;
   LabelTopology::Candidates candidates;
-  std::vector<FCCLattice::SiteType> lockedOfZero; ///< sites of voxels of label 0 that this label's field protects
+  BulkVector<FCCLattice::SiteType> lockedOfZero; ///< sites of voxels of label 0 that this label's field protects
 };
 
 /** For each site of the lattice, 1 where the border of label 0 has one neighbour and 0 elsewhere. */
@@ -657,7 +657,7 @@ LabelsToFCCFilter::GenerateData()
   const auto weights = FCCLabelWeights::New();
   StrongestLabels strongest(*labels, *weights);
   const LabelBlocks junctions = FindJunctions(image, map);
-  const auto make = [&](LabelInBox & box, ThreadIdType threads, const std::vector<FCCLattice::SiteType> & locked) {
+  const auto make = [&](LabelInBox & box, ThreadIdType threads, const BulkVector<FCCLattice::SiteType> & locked) {
     progress.CheckAbort();
     const auto field = MakeField(map, junctions, box.label, box.voxels, threads);
     box.candidates = FindCandidates(map, *field, box.label, *labels, locked);
@@ -666,7 +666,7 @@ LabelsToFCCFilter::GenerateData()
     progress.Completed(1);
   };
   LabelTopology::Candidates candidates;
-  std::vector<FCCLattice::SiteType> lockedOfZero;
+  BulkVector<FCCLattice::SiteType> lockedOfZero;
   const auto addTo = [](auto & all, const auto & some) { all.insert(all.end(), some.begin(), some.end()); };
   for (auto begin = boxes.begin() + (boxes.empty() ? 0 : 1), end = begin; begin != boxes.end();)
   {

@@ -12,7 +12,7 @@ namespace itk
 namespace
 {
 
-using Sites = std::vector<FCCLattice::SiteType>;
+using Sites = BulkVector<FCCLattice::SiteType>;
 
 constexpr double Inside = 1.0 + 1e-9; // of d p for the Voronoi cell's faces, d being the nearest neighbours
 
@@ -140,7 +140,7 @@ HullMeetsCell(const std::vector<PositionType> & points)
 
 /** Adds the sites whose cells meet the convex hull of a few points. */
 void
-AddSites(const std::vector<PositionType> & points, std::vector<FCCLattice::SiteType> & sites)
+AddSites(const std::vector<PositionType> & points, Sites & sites)
 {
   FCCLattice::SiteType low;
   FCCLattice::SiteType high;
@@ -179,10 +179,10 @@ AddSites(const std::vector<PositionType> & points, std::vector<FCCLattice::SiteT
 
 } // namespace
 
-std::vector<FCCLattice::SiteType>
+BulkVector<FCCLattice::SiteType>
 FindThinPartSites(const Image<std::uint8_t, 3> & mask,
                   const ImageRegion<3> & region,
-                  const std::vector<SizeValueType> & thin,
+                  const BulkVector<SizeValueType> & thin,
                   const std::function<PositionType(const Index<3> &)> & placeVoxel)
 {
   const auto isThin = [&](const Index<3> & voxel) {
@@ -219,20 +219,25 @@ FindThinPartSites(const Image<std::uint8_t, 3> & mask,
     }
   };
   constexpr std::size_t block = 1024;
-  std::vector<Sites> sitesOfBlocks((thin.size() + block - 1) / block);
-  rhombic::ForEachBlock(thin.size(), block, [&](std::size_t begin, std::size_t end) {
-    std::vector<PositionType> points;
-    Sites & sites = sitesOfBlocks[begin / block];
-    for (std::size_t n = begin; n < end; ++n)
-    {
-      addAround(thin[n], points, sites);
-    }
-    SortUniqueSites(sites);
-  });
+  constexpr std::size_t blocksAtOnce = 64;
   Sites sites;
-  for (const Sites & some : sitesOfBlocks)
+  for (std::size_t first = 0; first < thin.size(); first += block * blocksAtOnce)
   {
-    sites.insert(sites.end(), some.begin(), some.end());
+    std::vector<Sites> sitesOfBlocks(blocksAtOnce);
+    const std::size_t count = std::min(block * blocksAtOnce, thin.size() - first);
+    rhombic::ForEachBlock(count, block, [&](std::size_t begin, std::size_t end) {
+      std::vector<PositionType> points;
+      Sites & ofBlock = sitesOfBlocks[begin / block];
+      for (std::size_t n = begin; n < end; ++n)
+      {
+        addAround(thin[first + n], points, ofBlock);
+      }
+      SortUniqueSites(ofBlock);
+    });
+    for (const Sites & some : sitesOfBlocks)
+    {
+      sites.insert(sites.end(), some.begin(), some.end());
+    }
   }
   SortUniqueSites(sites);
   return sites;

@@ -185,31 +185,47 @@ ChooseLabels(const LabelMap & map, const std::vector<std::string> & wanted)
   return chosen;
 }
 
+void
+NumberRows(const ScanImage & image,
+           const std::vector<LabelSummary> & labels,
+           const itk::ImageRegion<3> & region,
+           std::uint16_t * numbers)
+{
+  std::vector<std::int32_t> values;
+  std::transform(labels.begin(), labels.end(), std::back_inserter(values), [](const LabelSummary & summary) {
+    return summary.label.value;
+  });
+  const auto & size = region.GetSize();
+  const auto number = [&](const auto & voxels) {
+    for (std::size_t row = 0; row < size[1] * size[2]; ++row, numbers += size[0])
+    {
+      itk::Index<3> first = region.GetIndex();
+      first[1] += static_cast<itk::IndexValueType>(row % size[1]);
+      first[2] += static_cast<itk::IndexValueType>(row / size[1]);
+      const auto * const from = voxels->GetBufferPointer() + voxels->ComputeOffset(first);
+      for (std::size_t n = 0; n < size[0]; ++n)
+      {
+        numbers[n] = n > 0 && from[n] == from[n - 1] ? numbers[n - 1] : NumberOf(from[n], values);
+      }
+    }
+  };
+  std::visit(number, image);
+}
+
 NumberImage::Pointer
 NumberLabels(const ScanImage & image, const std::vector<LabelSummary> & labels)
 {
-  std::vector<std::int32_t> values;
-  for (const LabelSummary & summary : labels)
-  {
-    values.push_back(summary.label.value);
-  }
+  const itk::ImageBase<3> & grid = GeometryOf(image);
   const auto numbers = NumberImage::New();
-  const auto number = [&](const auto & voxels) {
-    const auto & region = voxels->GetBufferedRegion();
-    const auto * const from = voxels->GetBufferPointer();
-    numbers->CopyInformation(voxels);
-    numbers->SetRegions(region);
-    itk::AllocateInBulk(*numbers);
-    ForEachInBlocks(region.GetSize(1) * region.GetSize(2), 64, [&](std::size_t row) {
-      const std::size_t first = row * region.GetSize(0);
-      for (std::size_t n = first; n < first + region.GetSize(0); ++n)
-      {
-        const bool isSame = n > first && from[n] == from[n - 1];
-        numbers->GetBufferPointer()[n] = isSame ? numbers->GetBufferPointer()[n - 1] : NumberOf(from[n], values);
-      }
-    });
-  };
-  std::visit(number, image);
+  numbers->CopyInformation(&grid);
+  numbers->SetRegions(grid.GetBufferedRegion());
+  itk::AllocateInBulk(*numbers);
+  ForEachInBlocks(numbers->GetBufferedRegion().GetSize(2), 1, [&](std::size_t z) {
+    itk::ImageRegion<3> slice = numbers->GetBufferedRegion();
+    slice.SetIndex(2, slice.GetIndex(2) + static_cast<itk::IndexValueType>(z));
+    slice.SetSize(2, 1);
+    NumberRows(image, labels, slice, numbers->GetBufferPointer() + numbers->ComputeOffset(slice.GetIndex()));
+  });
   return numbers;
 }
 

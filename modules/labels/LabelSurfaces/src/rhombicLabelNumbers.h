@@ -29,6 +29,20 @@ using NumberImage = itk::Image<std::uint16_t, 3>;
 NumberImage::Pointer
 NumberLabels(const ScanImage & image, const std::vector<LabelSummary> & labels);
 
+constexpr itk::SizeValueType BoxMargin = 12; ///< voxels around labels, beyond which they have no effect on walls
+
+/** Voxels around a part of a map, beyond which they hardly have an effect on the walls in it: as far as smoothing
+ * reaches, six times the shortest edge of a voxel, and four voxels at least. */
+itk::Size<3>
+MarginOfPart(const itk::ImageBase<3> & grid);
+
+/** The numbers of the voxels in a region of an image, row by row. */
+void
+NumberRows(const ScanImage & image,
+           const std::vector<LabelSummary> & labels,
+           const itk::ImageRegion<3> & region,
+           std::uint16_t * numbers);
+
 /** Calls use(label, begin, end) for the runs of one label of some voxels that lie in a row. */
 template <typename TUse>
 void

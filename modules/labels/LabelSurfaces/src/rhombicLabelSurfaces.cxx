@@ -32,25 +32,6 @@ namespace
 
 using LabelImage = NumberImage;
 
-constexpr itk::SizeValueType BoxMargin = 12; // voxels around labels, beyond which they have no effect on walls
-
-/** Voxels around a part of a map, beyond which they hardly have an effect on the walls in it: as far as smoothing
- * reaches, six times the shortest edge of a voxel, and four voxels at least. */
-itk::Size<3>
-MarginOfPart(const itk::ImageBase<3> & grid)
-{
-  constexpr double shortestEdges = 6.0;
-  constexpr double fewestVoxels = 4.0;
-  const auto & spacing = grid.GetSpacing();
-  const double reach = shortestEdges * std::min({ spacing[0], spacing[1], spacing[2] });
-  itk::Size<3> margin;
-  for (unsigned int axis = 0; axis < 3; ++axis)
-  {
-    margin[axis] = static_cast<itk::SizeValueType>(std::ceil(std::max(fewestVoxels, reach / spacing[axis])));
-  }
-  return margin;
-}
-
 /** Throws Failure(Usage) for a density that is not above 0 and at most 64. */
 void
 CheckLabelDensity(double density)
@@ -92,27 +73,6 @@ Crop(const LabelImage & image, const itk::ImageRegion<3> & box)
   itk::AllocateInBulk(*cropped);
   itk::ImageAlgorithm::Copy(&image, cropped.GetPointer(), box, cropped->GetBufferedRegion());
   return cropped;
-}
-
-/** Bytes for labels and fields, for weights, and for walls. */
-template <typename TFilter>
-std::uintmax_t
-EstimateMemory(const LabelImage & labels, TFilter & filter, double density)
-{
-  constexpr double bytesPerSite = 6.0;
-  constexpr double bytesPerVoxel = 22.0;
-  constexpr double bytesPerChange = 350.0; // of label along x: weights within 3 voxels, and triangles
-  filter.UpdateOutputInformation();
-  const auto sites = static_cast<double>(filter.GetOutput()->GetLargestPossibleRegion().GetNumberOfPixels());
-  const auto voxels = labels.GetBufferedRegion().GetNumberOfPixels();
-  const std::uint16_t * const begin = labels.GetBufferPointer();
-  double changes = 0.0;
-  for (std::size_t n = 1; n < voxels; ++n)
-  {
-    changes += begin[n] != begin[n - 1] ? 1.0 : 0.0;
-  }
-  return static_cast<std::uintmax_t>(sites * bytesPerSite + static_cast<double>(voxels) * bytesPerVoxel +
-                                     changes * bytesPerChange * std::max(1.0, density));
 }
 
 /** How the walls of a label map are smoothed: no point leaves the ellipsoid around it whose half axes are the edges of
@@ -191,10 +151,6 @@ WallsOfVoxels(const LabelImage & numbers,
   toLattice->SetDensity(settings.density);
   toLattice->SetScan(scan);
   toLattice->SetGroups(pieces.labels);
-  RequireMemory(EstimateMemory(numbers, *toLattice, settings.density),
-                settings.maximumMemory,
-                "The walls between labels",
-                "use a coarser lattice, or crop the label map");
   ObserveProgress(*toLattice, "extracting labels", events);
   toLattice->Update();
   const std::vector<double> volumes = toLattice->GetVoxelVolumes();
@@ -206,35 +162,16 @@ WallsOfVoxels(const LabelImage & numbers,
 /** The walls between labels by their probabilities. */
 itk::LabelWalls::Pointer
 WallsOfProbabilities(const LabelMap & map,
-                     const LabelImage & numbers,
                      const std::vector<LabelSummary> & labels,
                      const LabelSurfaceSettings & settings,
                      const Events & events)
 {
   auto toLattice = itk::ProbabilitiesToFCCFilter::New();
-  std::uintmax_t uncertain = 0; // values between 0 and 1
   for (std::size_t n = 0; n < map.probabilities.size(); ++n)
   {
-    const auto & volume = *map.probabilities[n];
-    toLattice->SetInput(static_cast<unsigned int>(n), &volume);
-    uncertain += static_cast<std::uintmax_t>(
-      std::count_if(volume.GetBufferPointer(),
-                    volume.GetBufferPointer() + volume.GetBufferedRegion().GetNumberOfPixels(),
-                    [](float value) { return value > 0.0f && value < 1.0f; }));
+    toLattice->SetInput(static_cast<unsigned int>(n), map.probabilities[n]);
   }
   toLattice->SetDensity(settings.density);
-  constexpr double bytesPerSite = 14.0; // besides labels and weights
-  constexpr double bytesPerVoxel = 16.0;
-  constexpr double bytesPerWeight = 17.0;
-  const auto others = static_cast<double>(EstimateMemory(numbers, *toLattice, settings.density));
-  const auto voxels = static_cast<double>(map.probabilities.front()->GetBufferedRegion().GetNumberOfPixels());
-  const auto sites = static_cast<double>(toLattice->GetOutput()->GetLargestPossibleRegion().GetNumberOfPixels());
-  const double weights = sites / voxels * static_cast<double>(uncertain);
-  RequireMemory(
-    static_cast<std::uintmax_t>(others + sites * bytesPerSite + voxels * bytesPerVoxel + weights * bytesPerWeight),
-    settings.maximumMemory,
-    "The walls between labels",
-    "use a coarser lattice, or crop the volumes of probabilities");
   ObserveProgress(*toLattice, "extracting labels", events);
   toLattice->Update();
   itk::LabelWalls::Pointer walls =
@@ -350,7 +287,7 @@ AddLayer(const LabelMap & map,
   const LabelImage::Pointer needed = isPart ? CropToPart(*numbers, box, *settings.part) : numbers;
   mesh.walls.push_back(!needed                     ? itk::LabelWalls::New()
                        : map.probabilities.empty() ? WallsOfVoxels(*needed, pieces, map.scan, settings, events)
-                                                   : WallsOfProbabilities(map, *needed, labels, settings, events));
+                                                   : WallsOfProbabilities(map, labels, settings, events));
   MeasureLabels(pieces, isPart, mesh);
 }
 
@@ -373,6 +310,12 @@ NoteShortcomings(const LabelSurface & made, const Events & events)
 
 } // namespace
 
+void
+RequireMemory(const LabelWork & work, std::uintmax_t maximumMemory)
+{
+  RequireMemory(work.bytes, maximumMemory, "The walls between labels", "use a coarser lattice, or crop the label map");
+}
+
 LabelMesh
 LabelsToWalls(const LabelMap & map, const LabelSurfaceSettings & settings, const Events & events)
 {
@@ -382,6 +325,8 @@ LabelsToWalls(const LabelMap & map, const LabelSurfaceSettings & settings, const
   {
     throw Failure(FailureKind::Unreadable, "Walls can have 65,535 labels; name those to show.");
   }
+  const LabelWork work = EstimateLabelWork(map, settings);
+  settings.check ? settings.check(work) : RequireMemory(work, settings.maximumMemory);
   LabelMesh mesh;
   std::transform(labels.begin(), labels.end(), std::back_inserter(mesh.labels), DescribeLabel);
   for (const ScanImage & layer : LayersOf(map.scan))
