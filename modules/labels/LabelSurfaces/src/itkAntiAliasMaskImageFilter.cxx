@@ -239,7 +239,7 @@ using RowWriter = std::function<void(SizeValueType row, SizeValueType begin, Siz
 /** Rows in a line along y or z: their values, or null where all are 0. */
 using LineOfRows = std::vector<const float *>;
 
-/** Smooths across a line of rows at the voxels of a band.
+/** Smooths across a line of rows at the voxels of a band, from one row of the line to before another.
  * \param first, step the numbers of the rows are first, first + step, ...
  * \param target gives the place for the smoothed values of a row */
 template <typename TTarget>
@@ -248,6 +248,8 @@ SmoothAcrossRows(const std::vector<float> & weights,
                  const LineOfRows & rows,
                  SizeValueType first,
                  SizeValueType step,
+                 SizeValueType beginRow,
+                 SizeValueType endRow,
                  const VoxelBand & band,
                  const TTarget & target,
                  const RowWriter & write)
@@ -255,7 +257,7 @@ SmoothAcrossRows(const std::vector<float> & weights,
   LineOfRows terms(weights.size());
   LineOfRows termsOfRun(weights.size());
   std::vector<float> weightsOfTerms(weights.size());
-  for (SizeValueType n = 0; n < rows.size(); ++n)
+  for (SizeValueType n = beginRow; n < endRow; ++n)
   {
     SizeValueType count = 0;
     for (SizeValueType tap = 0; tap < weights.size() && band.HasRow(first + n * step); ++tap)
@@ -325,23 +327,28 @@ Smooth(const MaskWork & work, double sigma, const VoxelBand & band, const RowRea
     if (hasValues[z] != 0)
     {
       const auto inScratch = [&](SizeValueType y) { return work.scratch + (y + z * height) * stride; };
-      SmoothAcrossRows(weights, rows, z * height, 1, smoothedInPlane, inScratch, nullptr);
+      SmoothAcrossRows(weights, rows, z * height, 1, 0, height, smoothedInPlane, inScratch, nullptr);
     }
     work.progress.Completed(1);
   });
 
-  // Along z, for each y.
-  work.progress.ForEach(height, [&](SizeValueType y) {
-    std::vector<float> smoothed(stride);
-    LineOfRows rows(depth);
-    for (SizeValueType z = 0; z < depth; ++z)
-    {
-      rows[z] = hasValues[z] != 0 ? work.scratch + (y + z * height) * stride : nullptr;
-    }
-    SmoothAcrossRows(
-      weights, rows, y, height, band, [&](SizeValueType) { return smoothed.data(); }, write);
-    work.progress.Completed(1);
-  });
+  // Along z, for each y: some planes at a time, so that few pages of temporary files are used at once.
+  constexpr SizeValueType planes = 64;
+  for (SizeValueType begin = 0; begin < depth; begin += planes)
+  {
+    const SizeValueType end = std::min(begin + planes, depth);
+    work.progress.ForEach(height, [&](SizeValueType y) {
+      std::vector<float> smoothed(stride);
+      LineOfRows rows(depth);
+      for (SizeValueType z = ClampedIndex(begin, reach, depth); z < std::min(end + reach, depth); ++z)
+      {
+        rows[z] = hasValues[z] != 0 ? work.scratch + (y + z * height) * stride : nullptr;
+      }
+      SmoothAcrossRows(
+        weights, rows, y, height, begin, end, band, [&](SizeValueType) { return smoothed.data(); }, write);
+      work.progress.Completed(end == depth ? 1 : 0);
+    });
+  }
 }
 
 // ---- Passes, in the order of their use
