@@ -7,6 +7,7 @@
 #include "itkFCCIsosurfaceMode.h"
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace rhombic
@@ -43,6 +44,10 @@ EstimateMesh(const SampledSlices & sample,
              itk::FCCIsosurfaceMode mode,
              const LatticeSettings & lattice,
              double mostTriangles = 0.0);
+
+/** "some 5.12 million triangles", "some 171 million triangles". */
+std::string
+DescribeTriangles(double triangles);
 
 /** What is done to surfaces when they have no crossings. */
 struct MeshSteps

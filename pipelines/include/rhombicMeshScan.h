@@ -4,6 +4,7 @@
 #include "rhombicBulkMemory.h"
 #include "rhombicColourBy.h"
 #include "rhombicEvents.h"
+#include "rhombicLabelSurfaces.h"
 #include "rhombicScanSource.h"
 #include "rhombicSidecar.h"
 #include "rhombicSurfaceFinish.h"

@@ -230,7 +230,7 @@ std::string
 DescribeSurfaces(const SurfacePlanning & planning, double triangles, std::uintmax_t temporaryBytes)
 {
   const double bytes = triangles * BytesOfTriangle(planning.output);
-  return "surfaces      some " + FormatNumber(triangles / 1e6, 2) + " million triangles" +
+  return "surfaces      " + DescribeTriangles(triangles) +
          (bytes > 0.0 ? ", " + DescribeBytes(static_cast<std::uintmax_t>(bytes)) + " in " + planning.output.string()
                       : "") +
          (temporaryBytes > 0 ? "; while they are made, " + DescribeBytes(temporaryBytes) + " in temporary files in " +

@@ -212,6 +212,12 @@ EstimateMesh(const SampledSlices & sample,
   return estimate;
 }
 
+std::string
+DescribeTriangles(double triangles)
+{
+  return "some " + FormatFixed(triangles / 1e6, triangles < 1e7 ? 2 : 0) + " million triangles";
+}
+
 void
 CountSteps(const MeshSteps & steps, MeshEstimate & mesh)
 {
@@ -240,7 +246,7 @@ CheckDrawnMesh(const MeshEstimate & mesh, const LatticeSettings & lattice)
   {
     RequireMemory(mesh.bytes.afterwards,
                   lattice.maximumMemory > 0 ? lattice.maximumMemory : FreeMemory(),
-                  "Drawing surfaces of some " + FormatNumber(mesh.triangles / 1e6, 2) + " million triangles",
+                  "Drawing surfaces of " + DescribeTriangles(mesh.triangles),
                   "use a coarser lattice with --density, another threshold or a part of the scan");
   }
 }

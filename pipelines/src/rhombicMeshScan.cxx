@@ -441,13 +441,6 @@ StepsOf(const MeshScanSettings & settings)
   return steps;
 }
 
-/** "some 5.12 million triangles". */
-std::string
-DescribeTriangles(double triangles)
-{
-  return "some " + FormatFixed(triangles / 1e6, triangles < 1e7 ? 2 : 0) + " million triangles";
-}
-
 void
 NoteTemporaryFiles(const std::string & what,
                    double triangles,
