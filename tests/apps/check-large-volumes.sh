@@ -44,13 +44,14 @@ cmp "$work/expected-noise.ply" "$work/whole.ply"
 finished() { # MEMORY OUTPUT OPTIONS: in place of a subshell
     exec "$program" mesh "$work/noise.mhd" -t 127.5 --threads 2 --max-memory $1 --temporary "$work/tmp" --no-sidecar -o "$2" "${@:3}"
 }
-for finish in "--smooth 0.3" "--max-triangles 85%"; do
+for run in "80000 --smooth 0.3" "140000 --max-triangles 85%"; do # kB
+    data=${run%% *} finish=${run#* }
     (finished 1G "$work/whole.ply" $finish) 2> "$work/notes-whole"
-    (ulimit -d 110000; finished 10M "$work/files.ply" $finish) 2> "$work/notes" || fail "$finish: $(cat "$work/notes")"
+    (ulimit -d $data; finished 10M "$work/files.ply" $finish) 2> "$work/notes" || fail "$finish: $(cat "$work/notes")"
     cmp "$work/whole.ply" "$work/files.ply"
     grep -q "are put into temporary files" "$work/notes" || fail "$finish: in memory: $(cat "$work/notes")"
     code=0
-    (ulimit -d 110000; finished 1G "$work/files.ply" $finish) 2> "$work/notes" || code=$?
+    (ulimit -d $data; finished 1G "$work/files.ply" $finish) 2> "$work/notes" || code=$?
     [ $code = 9 ] || fail "$finish: as little private memory without temporary files: $code, $(cat "$work/notes")"
 done
 

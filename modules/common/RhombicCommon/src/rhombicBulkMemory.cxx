@@ -123,7 +123,8 @@ void *
 BulkResource::do_allocate(std::size_t bytes, std::size_t)
 {
   constexpr std::size_t smallestBlock = std::size_t{ 1 } << 21;
-  constexpr unsigned int mostDoublings = 5;
+  constexpr std::size_t blocksOfSize = 8; // then they are twice as large: few files, and little that is left free
+  constexpr std::size_t mostDoublings = 5;
   const std::size_t size = RoundUp(bytes);
   const std::lock_guard<std::mutex> lock(m_Mutex);
   if (void *& free = m_Free[size])
@@ -132,7 +133,7 @@ BulkResource::do_allocate(std::size_t bytes, std::size_t)
   }
   if (size > m_Left)
   {
-    const auto doublings = std::min<std::size_t>(m_Blocks.size(), mostDoublings);
+    const std::size_t doublings = std::min(m_Blocks.size() / blocksOfSize, mostDoublings);
     const std::size_t block = std::max(smallestBlock << doublings, size);
     m_Blocks.reserve(m_Blocks.size() + 1);
     m_Next = static_cast<std::byte *>(AllocateBulk(block));
