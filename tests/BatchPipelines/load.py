@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""load.py PROGRAM FOLDER COUNT...: what the layer of batches costs for COUNT cases that have run, without running them: their journal has
-COUNT lines as a real batch of one case has written them, and each case's folder is a link to that of the real one.
+"""load.py PROGRAM FOLDER [--run] COUNT...: what the layer of batches costs for COUNT cases that have run, without running them: their
+journal has COUNT lines as a real batch of one case has written them, and each case's folder is a link to that of the real one. With --run,
+each case has a small file of its own and is run.
 
 Prints, for each COUNT, the seconds of one core and the memory of: --tables, which writes all tables and the index page, a run that finds
-nothing to do, and one more case of a job array (--case); and the sizes of the journal and of the tables."""
+nothing to do, and one more case of a job array (--case); and the sizes of the journal and of the tables. With --run, also the seconds of
+the whole run, and the memory of the batch without that of its cases."""
 
 import json
 import os
@@ -11,11 +13,12 @@ import shutil
 import struct
 import subprocess
 import sys
+import time
 
 PIPELINE = "outputs:\n  - mesh: a.stl\n    threshold: 1.5\n  - mesh: b.ply\n    threshold: 2.5\n"
 
 
-def write_volume(path):
+def write_volume(path, offset=0):
     size = 12
     header = bytearray(352)
     struct.pack_into("<i", header, 0, 348)
@@ -24,7 +27,7 @@ def write_volume(path):
     struct.pack_into("<8f", header, 76, *[1.0] * 8)
     struct.pack_into("<3f", header, 108, 352, 0, 0)
     struct.pack_into("<h", header, 254, 1)
-    struct.pack_into("<12f", header, 280, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0)
+    struct.pack_into("<12f", header, 280, -1, 0, 0, offset, 0, -1, 0, 0, 0, 0, 1, 0)
     header[344:348] = b"n+1\0"
     voxels = bytes(max(0, 5 - max(abs(x - 6), abs(y - 6), abs(z - 6))) for z in range(size) for y in range(size) for x in range(size))
     with open(path, "wb") as file:
@@ -41,20 +44,52 @@ def measure(*command):
     return f"{usage.ru_utime + usage.ru_stime:.2f} s, {usage.ru_maxrss / 1024:.0f} MiB"
 
 
+def run_cases(program, folder, count):
+    """A batch of COUNT files. The kernel counts the largest process among a batch and its cases, so that the batch is asked while it runs."""
+    scans, out = f"{folder}/scans-{count}", f"{folder}/run-{count}"
+    os.mkdir(scans)
+    for n in range(count):
+        write_volume(f"{scans}/case-{n:07}.nii", n)
+    batch = [program, "-q", "--threads", "1", "batch", scans, "--names-from-paths", "-o", out, "--pipeline", folder + "/pipeline.yaml"]
+    peak, start = 0, time.monotonic()
+    process = subprocess.Popen([*batch, "--jobs", "1"], stdout=subprocess.DEVNULL)
+    while process.poll() is None:
+        with open(f"/proc/{process.pid}/status") as status:
+            peak = max([peak] + [int(line.split()[1]) for line in status if line.startswith("VmHWM")])
+        time.sleep(0.2)
+    seconds = time.monotonic() - start
+    if process.returncode != 0:
+        sys.exit(f"{batch} ends with {process.returncode}")
+    with open(out + "/results.tsv") as table:
+        done = sum(line.split("\t")[1] == "done" for line in table)
+    print(f"{count} cases run: {done} done in {seconds:.0f} s, the batch itself {peak / 1024:.0f} MiB; nothing to do {measure(*batch)}; "
+          f"{sum(len(files) for _, _, files in os.walk(out))} files; " + sizes(out), flush=True)
+
+
+def sizes(out):
+    return ", ".join(f"{table} {os.path.getsize(f'{out}/{table}') / 1e6:.1f} MB"
+                     for table in ("journal.jsonl", "results.json", "measures.tsv", "index.html"))
+
+
 def main():
-    program, folder = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
+    arguments = [word for word in sys.argv[1:] if word != "--run"]
+    program, folder = map(os.path.abspath, arguments[:2])
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)
     scan, pipeline = folder + "/scan.nii", folder + "/pipeline.yaml"
     write_volume(scan)
     with open(pipeline, "w") as file:
         file.write(PIPELINE)
+    if "--run" in sys.argv:
+        for count in map(int, arguments[2:]):
+            run_cases(program, folder, count)
+        return
     with open(folder + "/one.tsv", "w") as file:
         file.write("case\tscan\none\tscan.nii\n")
     subprocess.run([program, "-q", "batch", folder + "/one.tsv", "-o", folder + "/one", "--pipeline", pipeline], check=True)
     with open(folder + "/one/journal.jsonl") as file:
         record = json.loads(file.read().splitlines()[-1])
-    for count in map(int, sys.argv[3:]):
+    for count in map(int, arguments[2:]):
         out, manifest = f"{folder}/out-{count}", f"{folder}/cases-{count}.tsv"
         os.mkdir(out)
         with open(manifest, "w") as cases, open(out + "/journal.jsonl", "w") as journal:
@@ -67,9 +102,7 @@ def main():
                 os.symlink(folder + "/one/one", f"{out}/{name}")
         batch = [program, "-q", "--threads", "1", "batch", manifest, "-o", out, "--pipeline", pipeline]
         print(f"{count} cases: --tables {measure(*batch, '--tables')}; nothing to do {measure(*batch)}; "
-              f"--case {measure(*batch, '--case', name)}; "
-              + ", ".join(f"{table} {os.path.getsize(f'{out}/{table}') / 1e6:.1f} MB"
-                          for table in ("journal.jsonl", "results.json", "measures.tsv", "index.html")), flush=True)
+              f"--case {measure(*batch, '--case', name)}; " + sizes(out), flush=True)
         shutil.rmtree(out)
 
 
