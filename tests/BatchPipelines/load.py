@@ -5,10 +5,11 @@ each case has a small file of its own and is run.
 
 Prints, for each COUNT, the seconds of one core and the memory of: --tables, which writes all tables and the index page, a run that finds
 nothing to do, and one more case of a job array (--case); and the sizes of the journal and of the tables. With --run, also the seconds of
-the whole run, and the memory of the batch without that of its cases."""
+a core of the whole run, and the seconds and the memory of the batch without its cases."""
 
 import json
 import os
+import resource
 import shutil
 import struct
 import subprocess
@@ -51,18 +52,20 @@ def run_cases(program, folder, count):
     for n in range(count):
         write_volume(f"{scans}/case-{n:07}.nii", n)
     batch = [program, "-q", "--threads", "1", "batch", scans, "--names-from-paths", "-o", out, "--pipeline", folder + "/pipeline.yaml"]
-    peak, start = 0, time.monotonic()
+    peak, own, before = 0, 0, resource.getrusage(resource.RUSAGE_CHILDREN)
     process = subprocess.Popen([*batch, "--jobs", "1"], stdout=subprocess.DEVNULL)
     while process.poll() is None:
-        with open(f"/proc/{process.pid}/status") as status:
+        with open(f"/proc/{process.pid}/status") as status, open(f"/proc/{process.pid}/stat") as times:
             peak = max([peak] + [int(line.split()[1]) for line in status if line.startswith("VmHWM")])
+            own = sum(map(int, times.read().rsplit(")", 1)[1].split()[11:13])) / os.sysconf("SC_CLK_TCK")
         time.sleep(0.2)
-    seconds = time.monotonic() - start
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     if process.returncode != 0:
         sys.exit(f"{batch} ends with {process.returncode}")
     with open(out + "/results.tsv") as table:
         done = sum(line.split("\t")[1] == "done" for line in table)
-    print(f"{count} cases run: {done} done in {seconds:.0f} s, the batch itself {peak / 1024:.0f} MiB; nothing to do {measure(*batch)}; "
+    print(f"{count} cases run: {done} done, {seconds:.1f} s, of which the batch itself {own:.1f} s, {peak / 1024:.0f} MiB; nothing to do {measure(*batch)}; "
           f"{sum(len(files) for _, _, files in os.walk(out))} files; " + sizes(out), flush=True)
 
 
