@@ -123,7 +123,7 @@ CountLayer(const ScanImage & layer, const std::vector<LabelSummary> & labels, co
       counts[begin / block].Add(CountSlice(slice, before, size[0], static_cast<itk::IndexValueType>(z)));
       slice.swap(before);
     }
-    counts.back().faces[2] += end == size[2] ? CountLabels(before.data(), before.size()) : 0;
+    counts[begin / block].faces[2] += end == size[2] ? CountLabels(before.data(), before.size()) : 0;
   });
   return std::accumulate(counts.begin(), counts.end(), SliceCounts(), [](SliceCounts sum, const SliceCounts & some) {
     sum.Add(some);
