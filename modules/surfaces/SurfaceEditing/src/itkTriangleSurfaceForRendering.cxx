@@ -2,16 +2,14 @@
 
 #include "detail/itkPositionArithmetic.h"
 #include "detail/itkTrianglesOfPoints.h"
-#include "rhombicBulkMemory.h"
 #include "rhombicForEachBlock.h"
+#include "rhombicSparseBulk.h"
 #include "itkMath.h"
 
 #include <meshoptimizer.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <limits>
-#include <new>
 
 namespace itk
 {
@@ -31,10 +29,7 @@ constexpr double RatioOfAll = 0.9;
 void *
 AllocateForOptimizer(std::size_t bytes)
 {
-  constexpr std::size_t smallestBulk = std::size_t{ 1 } << 22;
-  void * const block =
-    bytes < smallestBulk ? std::malloc(std::max<std::size_t>(bytes, 1)) : rhombic::AllocateBulk(bytes);
-  return block != nullptr ? block : throw std::bad_alloc();
+  return rhombic::AllocateSparseBulk(bytes, false);
 }
 
 /** Set once, before anything can be allocated; in temporary files then, where a surface is. */

@@ -850,7 +850,7 @@ private:
   // The current step.
   TriangleSurface::Pointer m_Before;
   Sheets m_SheetsBefore;
-  SurfacePoints m_Points;               ///< before the step
+  SurfacePoints m_Points;                        ///< before the step
   std::optional<rhombic::BulkResource> m_Memory; ///< of the patches
   std::vector<Patch> m_Patches;
   std::vector<TriangleId> m_Begin; ///< first triangle of each patch in m_State, and the end of the last
@@ -863,7 +863,7 @@ void
 VerifySheets(const TriangleSurface & surface, const Sheets & sheets)
 {
   using Side = std::array<std::uint32_t, 3>; // two points and a sheet
-  std::vector<Side> sides;
+  BulkVector<Side> sides;
   sides.reserve(3 * sheets.size());
   for (TriangleId id = 0; id < sheets.size(); ++id)
   {
