@@ -59,6 +59,21 @@ TEST(TriangleSurfaceMeasures, LongestDiameterIsThatOfAllPairs)
   EXPECT_EQ(ComputeTriangleSurfaceLongestDiameter(*Surface::New()), 0.0);
 }
 
+TEST(TriangleSurfaceMeasures, LongestDiameterLeavesOutPointsThatAreNowhere)
+{
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  const auto surface = Surface::New();
+  for (int n = 0; n < 100; ++n)
+  {
+    surface->GetPoints().push_back({ std::nanf(""), static_cast<float>(n), 0.0f });
+    surface->GetPoints().push_back({ infinity, static_cast<float>(n), 0.0f });
+  }
+  EXPECT_EQ(ComputeTriangleSurfaceLongestDiameter(*surface), 0.0);
+  surface->GetPoints().push_back({ 1.0f, 2.0f, 3.0f });
+  surface->GetPoints().push_back({ 1.0f, 2.0f, 7.0f });
+  EXPECT_EQ(ComputeTriangleSurfaceLongestDiameter(*surface), 4.0);
+}
+
 TEST(TriangleSurfaceMeasures, CentroidOfATetrahedronIsTheMeanOfItsCorners)
 {
   const auto surface = Surface::New();

@@ -259,7 +259,8 @@ struct RoundedPlane
   double bound; ///< of rounding, over the length of a point's offset from the origin
 };
 
-/** Between which heights above a plane the corners of a triangle are certain to lie that another triangle lacks. */
+/** Between which heights above a plane the corners of a triangle are certain to lie that another triangle lacks: all
+ * heights where a position is no number. */
 std::array<double, 2>
 FindHeights(const TriangleSurface::PointsContainer & points,
             const TriangleSurface::TriangleType & triangle,
@@ -268,6 +269,7 @@ FindHeights(const TriangleSurface::PointsContainer & points,
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   double least = infinity, greatest = -infinity;
+  bool areNumbers = true;
   for (const std::uint32_t corner : triangle)
   {
     const bool isShared = (corner == other[0]) | (corner == other[1]) | (corner == other[2]);
@@ -276,8 +278,9 @@ FindHeights(const TriangleSurface::PointsContainer & points,
     const double bound = plane.bound * SumOfLengths(offset);
     least = isShared ? least : std::min(least, height - bound);
     greatest = isShared ? greatest : std::max(greatest, height + bound);
+    areNumbers &= isShared | (height - bound <= height + bound);
   }
-  return { least, greatest };
+  return { areNumbers ? least : -infinity, areNumbers ? greatest : infinity };
 }
 
 /** Whether all corners of \a other that \a triangle lacks are certain to lie on one side of its plane. */

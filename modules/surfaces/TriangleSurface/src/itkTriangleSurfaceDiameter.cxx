@@ -4,6 +4,7 @@
 #include "itkPointBox.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace itk
@@ -177,7 +178,8 @@ FindFarthest(const TriangleSurface::PointsContainer & points, const PointType & 
 double
 ComputeTriangleSurfaceLongestDiameter(const TriangleSurface & surface)
 {
-  const auto & points = surface.GetPoints();
+  TriangleSurface::PointsContainer points;
+  std::copy_if(surface.GetPoints().begin(), surface.GetPoints().end(), std::back_inserter(points), IsFinite);
   if (points.empty())
   {
     return 0.0;
@@ -185,7 +187,7 @@ ComputeTriangleSurfaceLongestDiameter(const TriangleSurface & surface)
   // A good first guess spares most of the search.
   const PointType first = FindFarthest(points, points.front());
   const PointType second = FindFarthest(points, first);
-  return std::sqrt(PointBoxes(points).FindLargest(SquaredDistanceOfPoints(first, second)));
+  return std::sqrt(PointBoxes(std::move(points)).FindLargest(SquaredDistanceOfPoints(first, second)));
 }
 
 } // namespace itk
