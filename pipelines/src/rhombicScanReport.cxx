@@ -170,10 +170,11 @@ ReportWithoutNames(const Scan & scan, const std::filesystem::path & path)
   for (Report & note : report["notes"])
   {
     auto text = note.get<std::string>();
-    constexpr std::size_t fewestLetters = 3; // "a" is a word of sentences
+    constexpr std::size_t fewestLetters = 3;
     for (const std::string & name : { path.string(), path.filename().string(), path.stem().string() })
     {
-      name.size() < fewestLetters ? void() : ReplaceWords(text, name, "SCAN");
+      const bool mayBeWord = name.size() < fewestLetters && name == LowerCase(name); // as "a", unlike initials
+      mayBeWord ? void() : ReplaceWords(text, name, "SCAN");
     }
     note = text;
   }

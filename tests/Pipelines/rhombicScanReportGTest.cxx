@@ -37,6 +37,8 @@ TEST(ScanReport, NotesNameNoFileAndKeepTheirWords)
   EXPECT_EQ(notesOf("g.mhd does not say how large its voxels are; 1 mm is a guess.", "g.mhd"),
             "SCAN does not say how large its voxels are; 1 mm is a guess.");
   EXPECT_EQ(notesOf("a.mhd: 1 mm is a guess.", "a.mhd"), "SCAN: 1 mm is a guess.");
+  EXPECT_EQ(notesOf("JD holds 24 pictures, not JD.raw.", "/data/JD"), "SCAN holds 24 pictures, not SCAN.raw.")
+    << "initials";
 }
 
 TEST(SurfaceReport, ComparesALabelsSurfaceWithItsVoxels)

@@ -1,13 +1,20 @@
 #include "rhombicBulkMemory.h"
+#include "rhombicBulkResource.h"
 
 #include "rhombicFailure.h"
 #include "rhombicTemporaryFolder.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <memory_resource>
+#include <optional>
+#include <random>
+#include <thread>
+#include <vector>
 
 namespace
 {
@@ -52,6 +59,44 @@ TEST(BulkMemory, BlocksArePagesOfFilesWithoutANameWhileAskedFor)
   rhombic::FreeBulk(within);
   EXPECT_EQ(CountMapped(folder.Path()), 0);
   rhombic::FreeBulk(after);
+}
+
+TEST(BulkMemory, SmallArraysOfManyThreadsShareBlocks)
+{
+  const rhombictest::TemporaryFolder folder;
+  const rhombic::TemporaryStore store{ folder.Path(), "Cannot do this: the blocks" };
+  if (!FindObstacle(store, 20 * Size).empty())
+  {
+    GTEST_SKIP() << FindObstacle(store, 20 * Size);
+  }
+  std::optional<rhombic::BulkInTemporaryFiles> files(std::in_place, store);
+  const auto resource = rhombic::ResourceForSmallArrays();
+  std::vector<std::pmr::vector<std::uint32_t>> arrays;
+  while (arrays.size() < 400)
+  {
+    arrays.emplace_back(resource.get());
+  }
+  std::vector<std::thread> threads;
+  for (std::size_t thread = 0; thread < 4; ++thread)
+  {
+    threads.emplace_back([&, thread] {
+      std::mt19937 random(static_cast<unsigned int>(thread));
+      for (int turn = 0; turn < 2000; ++turn) // of arrays that grow, shrink and are given back
+      {
+        const std::size_t n = random() % 100 * 4 + thread;
+        arrays[n].assign(random() % 4000, static_cast<std::uint32_t>(n));
+        turn % 3 == 0 ? arrays[n].shrink_to_fit() : void();
+      }
+    });
+  }
+  std::for_each(threads.begin(), threads.end(), [](std::thread & thread) { thread.join(); });
+  files.reset(); // which the arrays outlive
+  EXPECT_GT(CountMapped(folder.Path()), 0);
+  EXPECT_LT(CountMapped(folder.Path()), 20);
+  for (std::size_t n = 0; n < arrays.size(); ++n)
+  {
+    ASSERT_EQ(std::count(arrays[n].begin(), arrays[n].end(), n), static_cast<std::ptrdiff_t>(arrays[n].size()));
+  }
 }
 
 TEST(BulkMemory, FoldersWithoutRoomAreRefusedInWords)

@@ -163,6 +163,9 @@ TEST(Wording, WordsAreReplacedWhereTheyStandAlone)
   std::string text = "g.mhd is large, /g/ and g_2, not g2";
   rhombic::ReplaceWords(text, "g", "SCAN");
   EXPECT_EQ(text, "SCAN.mhd is large, /SCAN/ and SCAN_2, not g2");
+  std::string folder = "Smith/IM1 in Smith/";
+  rhombic::ReplaceWords(folder, "Smith/", "SCAN/");
+  EXPECT_EQ(folder, "SCAN/IM1 in SCAN/") << "what ends without a letter";
   rhombic::ReplaceWords(text, "", "x");
   rhombic::ReplaceWords(text, "SCAN", "SCAN SCAN");
   EXPECT_EQ(text, "SCAN SCAN.mhd is large, /SCAN SCAN/ and SCAN SCAN_2, not g2");

@@ -13,7 +13,8 @@ namespace rhombic
 
 /** \class BulkResource
  * \brief Memory for thousands of arrays of kilobytes, in a few blocks of AllocateBulk(): in temporary files where a
- * surface's own arrays are. An array takes up to an eighth more than its bytes. For any thread. */
+ * surface's own arrays are. An array takes up to an eighth more than its bytes, and is aligned as by malloc(). For any
+ * thread. */
 class BulkResource : public std::pmr::memory_resource
 {
 public:

@@ -81,7 +81,8 @@ ToNumber(std::string_view text)
   return error == std::errc() && end == last ? std::optional<TNumber>(number) : std::nullopt;
 }
 
-/** Replaces words of a text wherever no letter or digit is beside them: "g" stands alone in "g.mhd", not in "large". */
+/** Replaces words of a text wherever no letter or digit goes on with them: "g" stands alone in "g.mhd", not in "large".
+ */
 void
 ReplaceWords(std::string & text, const std::string & words, const std::string & by);
 

@@ -144,12 +144,13 @@ DescribeLength(double millimetres)
 void
 ReplaceWords(std::string & text, const std::string & words, const std::string & by)
 {
-  const auto isLetter = [&text](std::size_t place) {
-    return place < text.size() && std::isalnum(static_cast<unsigned char>(text[place])) != 0;
+  const auto areInWord = [&text](std::size_t place) { // the bytes before and at a place
+    const auto isLetter = [&text](std::size_t n) { return std::isalnum(static_cast<unsigned char>(text[n])) != 0; };
+    return place > 0 && place < text.size() && isLetter(place - 1) && isLetter(place);
   };
   for (auto place = text.find(words); place != std::string::npos && !words.empty(); place = text.find(words, place))
   {
-    const bool isInWord = (place > 0 && isLetter(place - 1)) || isLetter(place + words.size());
+    const bool isInWord = areInWord(place) || areInWord(place + words.size());
     if (!isInWord)
     {
       text.replace(place, words.size(), by);
