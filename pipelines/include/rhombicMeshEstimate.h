@@ -55,6 +55,7 @@ struct MeshSteps
   bool smooths = false;
   bool simplifies = false;
   bool colours = false;
+  bool ofWalls = false; ///< that surfaces of labels share: there is more to keep of several sheets
 };
 
 /** Counts the memory of steps that need more than the search for crossings. */

@@ -320,6 +320,10 @@ PlanSurfaces(const SurfacePlanning & planning, const Events & events)
   {
     text += "surfaces      not known before the voxels are read\n";
   }
+  if (planning.surfaces.labels)
+  {
+    text += "labels        not known before their map is read\n";
+  }
   return text + "memory        " + DescribeMemory(volumes, source.read.maximumMemory) +
          (known.empty() ? "" : ", then " + DescribeBytes(mesh.bytes.afterwards) + " for the surfaces") + '\n' +
          DescribeUnwritten(planning.output);

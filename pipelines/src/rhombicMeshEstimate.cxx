@@ -221,8 +221,8 @@ DescribeTriangles(double triangles)
 void
 CountSteps(const MeshSteps & steps, MeshEstimate & mesh)
 {
-  constexpr double whileSmoothed = 130.0;   // bytes of a triangle
-  constexpr double whileSimplified = 320.0; // of those before
+  constexpr double whileSmoothed = 130.0;                       // bytes of a triangle
+  const double whileSimplified = steps.ofWalls ? 430.0 : 320.0; // of those before
   constexpr double whileColoured = 130.0;
   const double most = std::max({ steps.smooths ? whileSmoothed : 0.0,
                                  steps.simplifies ? whileSimplified : 0.0,

@@ -539,14 +539,19 @@ CheckLabels(LabelWork & work, const MeshScanSettings & settings)
 {
   MeshEstimate walls;
   walls.triangles = work.triangles;
-  CountSteps({ !settings.finish.smoothing.IsNothing(), settings.finish.Simplifies(), settings.colourBy.has_value() },
-             walls);
+  CountSteps(
+    { !settings.finish.smoothing.IsNothing(), settings.finish.Simplifies(), settings.colourBy.has_value(), true },
+    walls);
   work.bytes = std::max(work.bytes, walls.bytes.afterwards);
   const std::uintmax_t limit = settings.source.lattice.maximumMemory;
   if (work.bytes <= MemoryAllowance(limit) || work.isOfProbabilities || AreColouredByLabels(settings))
   {
     RequireMemory(work, limit);
     return false;
+  }
+  if (settings.colourBy)
+  {
+    work.bytes += CountColourBytes(WithinMemory(*settings.colourBy, settings)).others; // throws for too large a volume
   }
   RequireRoom(LabelStore(settings), work.bytes);
   return true;
