@@ -7,6 +7,7 @@
 #include "rhombicWording.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <set>
@@ -183,6 +184,21 @@ ChooseLabels(const LabelMap & map, const std::vector<std::string> & wanted)
                                      : "The label table hides all labels of the map; name those to show.");
   }
   return chosen;
+}
+
+itk::Size<3>
+MarginOfPart(const itk::ImageBase<3> & grid)
+{
+  constexpr double shortestEdges = 6.0;
+  constexpr double fewestVoxels = 4.0;
+  const auto & spacing = grid.GetSpacing();
+  const double reach = shortestEdges * std::min({ spacing[0], spacing[1], spacing[2] });
+  itk::Size<3> margin;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    margin[axis] = static_cast<itk::SizeValueType>(std::ceil(std::max(fewestVoxels, reach / spacing[axis])));
+  }
+  return margin;
 }
 
 void
