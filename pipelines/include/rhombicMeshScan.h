@@ -53,9 +53,9 @@ CheckMesh(MeshEstimate & mesh, const MeshScanSettings & settings);
 TemporaryStore
 SurfaceStore(const MeshEstimate & mesh, const MeshScanSettings & settings);
 
-/** Counts what is done to the surfaces of labels, too, and returns whether the work needs temporary files, as the memory
- * that is allowed can't hold it. Throws Failure(Memory) where there is no room for them, or where probabilities, or
- * colours by a label map, need memory. */
+/** Counts what is done to the surfaces of labels, too, and returns whether the work needs temporary files, as the
+ * memory that is allowed can't hold it. Throws Failure(Memory) where there is no room for them, or where probabilities,
+ * or colours by a label map, need memory. */
 bool
 CheckLabels(LabelWork & work, const MeshScanSettings & settings);
 

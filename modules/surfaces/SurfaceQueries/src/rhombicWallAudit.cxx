@@ -50,8 +50,7 @@ CountLoneJunctions(const JoinedSurfaces & joined)
 std::size_t
 CountRepeated(const itk::TriangleSurface & surface)
 {
-  itk::TriangleSurface::TrianglesContainer triangles(surface.GetTriangles().begin(),
-                                                            surface.GetTriangles().end());
+  itk::TriangleSurface::TrianglesContainer triangles(surface.GetTriangles().begin(), surface.GetTriangles().end());
   for (auto & triangle : triangles)
   {
     std::sort(triangle.begin(), triangle.end());

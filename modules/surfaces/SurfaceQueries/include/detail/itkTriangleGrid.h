@@ -11,9 +11,9 @@ namespace itk
  * longer than cells along any axis, so that those that meet lie in the same cell or in cells that touch.
  *
  * Cells are sorted block by block, while they are visited: the triangles of a block stay in a processor's cache. For
- * surfaces whose triangles are of about the same size, as isosurfaces have them: a grid is made in a sixth of the time
- * of a TriangleTree. It keeps the surface alive; moving points invalidates it. Linear time, on several threads; memory
- * about 6 bytes per triangle. The order of triangles depends on the threads. */
+ * surfaces whose triangles are of about the same size, as isosurfaces have them; less work than a TriangleTree. It
+ * keeps the surface alive; moving points invalidates it. Linear time, on several threads; memory about 6 bytes per
+ * triangle. The order of triangles depends on the threads. */
 class TriangleGrid
 {
 public:
