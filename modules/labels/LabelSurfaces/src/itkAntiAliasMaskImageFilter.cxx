@@ -15,6 +15,7 @@
 #include <cstring>
 #include <functional>
 #include <iterator>
+#include <memory>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -304,7 +305,7 @@ Smooth(const MaskWork & work, double sigma, const VoxelBand & band, const RowRea
   std::vector<std::uint8_t> hasValues(depth); // by plane
   work.progress.ForEach(depth, [&](SizeValueType z) {
     std::vector<float> extended(stride + 2 * reach);
-    std::vector<float> plane;
+    std::unique_ptr<float[]> plane; // not initialised: what a run reads is made for it
     LineOfRows rows(height);
     std::vector<const float *> terms(weights.size());
     for (SizeValueType y = 0; y < height; ++y)
@@ -313,15 +314,19 @@ Smooth(const MaskWork & work, double sigma, const VoxelBand & band, const RowRea
       {
         continue;
       }
-      plane.resize(height * stride);
-      rows[y] = plane.data() + y * stride;
+      if (!plane)
+      {
+        plane.reset(new float[height * stride]);
+      }
+      float * const row = plane.get() + y * stride;
+      std::fill(row + width, row + stride, 0.0f);
+      rows[y] = row;
       hasValues[z] = 1;
       std::fill_n(extended.begin(), reach, extended[reach]);
       std::fill_n(extended.begin() + static_cast<std::ptrdiff_t>(reach + width), reach, extended[reach + width - 1]);
       smoothedInRow.ForEachRun(y + z * height, [&](SizeValueType begin, SizeValueType end) {
         std::iota(terms.begin(), terms.end(), extended.data() + begin);
-        RowArithmetic::Blend(
-          terms.data(), weights.data(), terms.size(), end - begin, plane.data() + y * stride + begin);
+        RowArithmetic::Blend(terms.data(), weights.data(), terms.size(), end - begin, row + begin);
       });
     }
     if (hasValues[z] != 0)

@@ -25,6 +25,38 @@ constexpr double MovePerOffset = 0.7;  // of a wall, in voxels: 0.5 for weights 
 constexpr double FarthestOffset = 2.0; // of weights; twice as far as walls move, in voxels
 constexpr double LargestShareAlone = 0.25; // of the lattice's sites: boxes of labels that are corrected alone
 
+/** For each row of a box of the lattice, 1 where a cell around its sites may have a corner of the label: cells reach
+ * two rows far. */
+std::vector<std::uint8_t>
+FindRowsNear(LabelType label, const ImageRegion<3> & box, const Lattice & labels)
+{
+  constexpr SizeValueType reach = 2;
+  const SizeValueType height = box.GetSize(1);
+  const SizeValueType depth = box.GetSize(2);
+  std::vector<std::uint8_t> areNear(height * depth);
+  for (SizeValueType k = 0; k < depth; ++k)
+  {
+    for (SizeValueType j = 0; j < height; ++j)
+    {
+      const Index<3> first =
+        box.GetIndex() + Offset<3>{ { 0, static_cast<OffsetValueType>(j), static_cast<OffsetValueType>(k) } };
+      const LabelType * const row = labels.GetBufferPointer() + labels.ComputeOffset(first);
+      if (std::find(row, row + box.GetSize(0), label) == row + box.GetSize(0))
+      {
+        continue;
+      }
+      for (SizeValueType z = k - std::min(k, reach); z <= std::min(k + reach, depth - 1); ++z)
+      {
+        for (SizeValueType y = j - std::min(j, reach); y <= std::min(j + reach, height - 1); ++y)
+        {
+          areNear[z * height + y] = 1;
+        }
+      }
+    }
+  }
+  return areNear;
+}
+
 /** The surface of a label alone, as label 1, from the walls in a box of the lattice. */
 LabelWalls::Pointer
 ExtractAlone(LabelType label, const ImageRegion<3> & box, const Lattice & labels, const FCCLabelWeights & weights)
@@ -42,8 +74,14 @@ ExtractAlone(LabelType label, const ImageRegion<3> & box, const Lattice & labels
   weightsOfPart->SetNumberOfRows(box.GetSize(1) * box.GetSize(2));
   const ImageRegion<3> & whole = labels.GetLargestPossibleRegion();
   const auto first = static_cast<SizeValueType>(box.GetIndex(0) - whole.GetIndex(0));
+  const std::vector<std::uint8_t> areNear = FindRowsNear(label, box, labels);
   for (SizeValueType row = 0; row < weightsOfPart->GetNumberOfRows(); ++row)
   {
+    if (areNear[row] == 0)
+    {
+      std::fill_n(part->GetBufferPointer() + row * box.GetSize(0), box.GetSize(0), LabelType{ 0 });
+      continue;
+    }
     Index<3> index = box.GetIndex();
     index[1] += static_cast<IndexValueType>(row % box.GetSize(1));
     index[2] += static_cast<IndexValueType>(row / box.GetSize(1));
