@@ -95,10 +95,20 @@ JoinSurfaces(const std::vector<SceneSurface> & surfaces)
 {
   JoinedSurfaces joined;
   joined.surface = itk::TriangleSurface::New();
-  PointWelder welder(joined.surface->GetPoints());
+  std::size_t numberOfPoints = 0;
+  std::size_t numberOfTriangles = 0;
+  for (const SceneSurface & surface : surfaces)
+  {
+    numberOfPoints += surface.surface->GetNumberOfPoints();
+    numberOfTriangles += surface.surface->GetNumberOfTriangles();
+  }
+  PointWelder welder(joined.surface->GetPoints(), numberOfPoints);
   itk::TriangleSurface::TrianglesContainer triangles;
   itk::BulkVector<Face> faces;
   itk::BulkVector<std::uint32_t> surfaceOf;
+  triangles.reserve(numberOfTriangles);
+  faces.reserve(numberOfTriangles);
+  surfaceOf.reserve(numberOfTriangles);
   for (std::size_t n = 0; n < surfaces.size(); ++n)
   {
     const itk::TriangleSurface & surface = *surfaces[n].surface;

@@ -20,10 +20,11 @@ public:
   using PointType = itk::TriangleSurface::PointType;
   using PointsContainer = itk::TriangleSurface::PointsContainer;
 
-  /** Appends new points to \a points, which must not be changed otherwise. */
-  explicit PointWelder(PointsContainer & points)
+  /** Appends new points to \a points, which must not be changed otherwise. The table need not grow up to so many
+   * \a expected points. */
+  explicit PointWelder(PointsContainer & points, std::size_t expected = 0)
     : m_Points(points)
-    , m_Slots(1024, Empty)
+    , m_Slots(FindNumberOfSlots(expected), Empty)
   {}
 
   /** The index of the point, which is appended if it is new. */
@@ -47,6 +48,17 @@ public:
 
 private:
   static constexpr std::uint32_t Empty = std::numeric_limits<std::uint32_t>::max();
+
+  static std::size_t
+  FindNumberOfSlots(std::size_t points)
+  {
+    std::size_t slots = 1024;
+    while (slots < 2 * points)
+    {
+      slots *= 2;
+    }
+    return slots;
+  }
 
   using Bits = std::array<std::uint32_t, 3>;
 
