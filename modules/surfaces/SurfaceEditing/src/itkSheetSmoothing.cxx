@@ -12,9 +12,56 @@ constexpr SizeValueType Block = 4096;
 constexpr double PassBand = 0.006; // of the eigenvalues of the umbrella operator, [0, 2]
 constexpr unsigned int NormalSteps = 4;
 
+/** A vector in a register of four floats, of which the last is not used. */
+struct Lanes
+{
+  using Register [[gnu::vector_size(16)]] = float;
+
+  Register lanes{};
+
+  Lanes() = default;
+
+  Lanes(Register values)
+    : lanes(values)
+  {}
+
+  explicit Lanes(const PositionType & vector)
+    : lanes{ static_cast<float>(vector[0]), static_cast<float>(vector[1]), static_cast<float>(vector[2]), 0.0f }
+  {}
+
+  explicit operator PositionType() const
+  {
+    return { lanes[0], lanes[1], lanes[2] };
+  }
+};
+
+Lanes
+operator+(const Lanes & a, const Lanes & b)
+{
+  return a.lanes + b.lanes;
+}
+
+Lanes
+operator-(const Lanes & a, const Lanes & b)
+{
+  return a.lanes - b.lanes;
+}
+
+Lanes
+operator*(float a, const Lanes & b)
+{
+  return a * b.lanes;
+}
+
+Lanes
+operator/(const Lanes & a, float b)
+{
+  return a.lanes / b;
+}
+
 /** A number or a vector for each point. */
-template <std::size_t VDimension>
-using Values = BulkVector<std::array<float, VDimension>>;
+template <typename TValue>
+using Values = BulkVector<TValue>;
 
 /** The coefficients of the Chebyshev polynomials of which the filter is the sum. Those of an ideal low-pass filter, by
  * a Hamming window; their sum is 1, so that what is the same everywhere stays. */
@@ -39,53 +86,37 @@ FindCoefficients(unsigned int iterations)
 }
 
 /** The mean of a point's neighbours, or the point's own value if it has none. */
-template <std::size_t VDimension>
-std::array<float, VDimension>
-MeanOfNeighbours(const SheetNeighbours & neighbours, const Values<VDimension> & values, SizeValueType point)
+template <typename TValue>
+TValue
+MeanOfNeighbours(const SheetNeighbours & neighbours, const Values<TValue> & values, SizeValueType point)
 {
-  std::array<float, VDimension> sum{};
-  const std::size_t count = neighbours.Visit(point, [&](std::uint32_t other) {
-    for (std::size_t n = 0; n < VDimension; ++n)
-    {
-      sum[n] += values[other][n];
-    }
-  });
-  if (count == 0)
-  {
-    return values[point];
-  }
-  for (float & component : sum)
-  {
-    component /= static_cast<float>(count);
-  }
-  return sum;
+  TValue sum{};
+  const std::size_t count = neighbours.Visit(point, [&](std::uint32_t other) { sum = sum + values[other]; });
+  return count == 0 ? values[point] : sum / static_cast<float>(count);
 }
 
 /** Filters values by the recurrence of Chebyshev polynomials: T(n + 1) = 2 x T(n) - T(n - 1), where x is the mean of a
  * value and its neighbours' mean. */
-template <std::size_t VDimension>
+template <typename TValue>
 void
 Filter(const SheetNeighbours & neighbours,
        const std::vector<double> & coefficients,
-       Values<VDimension> & values,
+       Values<TValue> & values,
        rhombic::StagedProgress & progress)
 {
-  Values<VDimension> last = values;
-  Values<VDimension> current = values;
-  Values<VDimension> next(values.size());
+  Values<TValue> last = values;
+  Values<TValue> current = values;
+  Values<TValue> next(values.size());
   for (std::size_t n = 0; n < coefficients.size(); ++n)
   {
     const auto share = static_cast<float>(coefficients[n]);
     rhombic::ForEachBlock(values.size(), Block, [&](SizeValueType begin, SizeValueType end) {
       for (SizeValueType point = begin; point < end; ++point)
       {
-        const auto mean = MeanOfNeighbours(neighbours, current, point);
-        for (std::size_t axis = 0; axis < VDimension; ++axis)
-        {
-          const float here = current[point][axis];
-          next[point][axis] = n == 0 ? 0.5f * (here + mean[axis]) : here + mean[axis] - last[point][axis];
-          values[point][axis] = (n == 0 ? 0.0f : values[point][axis]) + share * here;
-        }
+        const TValue here = current[point];
+        const TValue sum = here + MeanOfNeighbours(neighbours, current, point);
+        next[point] = n == 0 ? 0.5f * sum : sum - last[point];
+        values[point] = (n == 0 ? TValue{} : values[point]) + share * here;
       }
       progress.Completed(end - begin);
     });
@@ -95,13 +126,13 @@ Filter(const SheetNeighbours & neighbours,
 }
 
 /** Unit normals of the points: means of the triangles' by their areas, smoothed a little. */
-Values<3>
+Values<Lanes>
 FindNormals(const TriangleSurface & surface, const TrianglesOfPoints & fans, const SheetNeighbours & neighbours)
 {
-  Values<3> normals(surface.GetNumberOfPoints());
-  const auto normalized = [](const PositionType & sum) -> std::array<float, 3> {
+  Values<Lanes> normals(surface.GetNumberOfPoints());
+  const auto normalized = [](const PositionType & sum) {
     const double length = Length(sum);
-    return length > 0.0 ? ToPoint(Scaled(sum, 1.0 / length)) : std::array<float, 3>{};
+    return length > 0.0 ? Lanes(Scaled(sum, 1.0 / length)) : Lanes();
   };
   rhombic::ForEachInBlocks(normals.size(), Block, [&](SizeValueType point) {
     PositionType sum{};
@@ -109,12 +140,12 @@ FindNormals(const TriangleSurface & surface, const TrianglesOfPoints & fans, con
       point, [&](std::uint32_t id) { sum = Add(sum, AreaVector(CornersOf(surface, surface.GetTriangles()[id]))); });
     normals[point] = normalized(sum);
   });
-  Values<3> next(normals.size());
+  Values<Lanes> next(normals.size());
   for (unsigned int n = 0; n < NormalSteps; ++n)
   {
     rhombic::ForEachInBlocks(normals.size(), Block, [&](SizeValueType point) {
-      const auto mean = MeanOfNeighbours(neighbours, normals, point);
-      next[point] = normalized(Add(ToPosition(normals[point]), ToPosition(mean)));
+      const Lanes mean = MeanOfNeighbours(neighbours, normals, point);
+      next[point] = normalized(Add(PositionType(normals[point]), PositionType(mean)));
     });
     normals.swap(next);
   }
@@ -168,24 +199,24 @@ SmoothSheets(const TriangleSurface & surface,
   const std::vector<double> coefficients = FindCoefficients(iterations);
   const auto start = surface.GetPoints();
   const PositionType origin = ToPosition(start.front()); // positions relative to it keep their digits
-  Values<3> ways(count);
-  Values<1> heights(count);
+  Values<Lanes> ways(count);
+  Values<float> heights(count);
   rhombic::ForEachInBlocks(
-    count, Block, [&](SizeValueType point) { ways[point] = ToPoint(Subtract(ToPosition(start[point]), origin)); });
+    count, Block, [&](SizeValueType point) { ways[point] = Lanes(Subtract(ToPosition(start[point]), origin)); });
   Filter(neighbours, coefficients, ways, progress);
-  const Values<3> normals = FindNormals(surface, fans, neighbours);
+  const Values<Lanes> normals = FindNormals(surface, fans, neighbours);
   rhombic::ForEachInBlocks(count, Block, [&](SizeValueType point) {
-    ways[point] = ToPoint(Subtract(Add(ToPosition(ways[point]), origin), ToPosition(start[point])));
+    ways[point] = Lanes(Subtract(Add(PositionType(ways[point]), origin), ToPosition(start[point])));
     // Normals of sheets that meet have no mean.
-    heights[point][0] = strata.strata[point] == Stratum::Sheet
-                          ? static_cast<float>(Dot(ToPosition(ways[point]), ToPosition(normals[point])))
-                          : 0.0f;
+    heights[point] = strata.strata[point] == Stratum::Sheet
+                       ? static_cast<float>(Dot(PositionType(ways[point]), PositionType(normals[point])))
+                       : 0.0f;
   });
   Filter(neighbours, coefficients, heights, progress);
   moves.MoveTowards(
     [&](SizeValueType point) {
       const PositionType way =
-        Along(ToPosition(ways[point]), ToPosition(normals[point]), -static_cast<double>(heights[point][0]));
+        Along(PositionType(ways[point]), PositionType(normals[point]), -static_cast<double>(heights[point]));
       return strata.strata[point] == Stratum::Fixed ? start[point] : BoundedMoves::Move(start[point], 1.0, way);
     },
     progress);
