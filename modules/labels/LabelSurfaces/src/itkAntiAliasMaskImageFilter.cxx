@@ -231,8 +231,9 @@ InverseSlope(double sigma)
   return sigma * std::sqrt(2.0 * Math::pi);
 }
 
-/** Writes the values of a row to be smoothed, or returns false if all are 0. */
-using RowReader = std::function<bool(SizeValueType row, float * values)>;
+/** Writes the values of a part of a row to be smoothed, values[x] being that of voxel x, or returns false if all of the
+ * row are 0. */
+using RowReader = std::function<bool(SizeValueType row, SizeValueType begin, SizeValueType end, float * values)>;
 
 /** Takes the smoothed values of a part of a row; values[x] is the value of voxel x. */
 using RowWriter = std::function<void(SizeValueType row, SizeValueType begin, SizeValueType end, const float * values)>;
@@ -287,19 +288,33 @@ SmoothAcrossRows(const std::vector<float> & weights,
   }
 }
 
-/** Smooths the rows of \a read with a Gaussian and passes their parts in a band to \a write. Rows and planes of zeros
+/** A Gaussian with the band of its results, and the bands in which it is applied along axes before. */
+struct GaussianInBand
+{
+  GaussianInBand(double sigma, const VoxelBand & ofResults)
+    : weights(GaussianWeights(sigma))
+    , band(ofResults)
+    , smoothedInPlane(band.Widened({ 0, 0, weights.size() / 2 }))
+    , smoothedInRow(smoothedInPlane.Widened({ 0, weights.size() / 2, 0 }))
+  {}
+
+  std::vector<float> weights;
+  VoxelBand band;
+  VoxelBand smoothedInPlane; ///< along x and y
+  VoxelBand smoothedInRow;   ///< along x
+};
+
+/** Smooths the rows of \a read with a Gaussian and passes their parts in its band to \a write. Rows and planes of zeros
  * take no time: in thick slices most are. */
 void
-Smooth(const MaskWork & work, double sigma, const VoxelBand & band, const RowReader & read, const RowWriter & write)
+Smooth(const MaskWork & work, const GaussianInBand & gaussian, const RowReader & read, const RowWriter & write)
 {
-  const std::vector<float> weights = GaussianWeights(sigma);
+  const std::vector<float> & weights = gaussian.weights;
   const SizeValueType reach = weights.size() / 2;
   const SizeValueType width = work.size[0];
   const SizeValueType height = work.size[1];
   const SizeValueType depth = work.size[2];
   const SizeValueType stride = RowArithmetic::PaddedLength(width);
-  const VoxelBand smoothedInPlane = band.Widened({ 0, 0, reach });
-  const VoxelBand smoothedInRow = smoothedInPlane.Widened({ 0, reach, 0 });
 
   // Along x and y, plane by plane.
   std::vector<std::uint8_t> hasValues(depth); // by plane
@@ -310,7 +325,11 @@ Smooth(const MaskWork & work, double sigma, const VoxelBand & band, const RowRea
     std::vector<const float *> terms(weights.size());
     for (SizeValueType y = 0; y < height; ++y)
     {
-      if (!smoothedInRow.HasRow(y + z * height) || !read(y + z * height, extended.data() + reach))
+      const SizeValueType number = y + z * height;
+      const auto [first, last] = gaussian.smoothedInRow.FindRange(number);
+      const SizeValueType begin = ClampedIndex(first, reach, width);
+      const SizeValueType end = std::min(last + reach, width);
+      if (!gaussian.smoothedInRow.HasRow(number) || !read(number, begin, end, extended.data() + reach))
       {
         continue;
       }
@@ -324,15 +343,15 @@ Smooth(const MaskWork & work, double sigma, const VoxelBand & band, const RowRea
       hasValues[z] = 1;
       std::fill_n(extended.begin(), reach, extended[reach]);
       std::fill_n(extended.begin() + static_cast<std::ptrdiff_t>(reach + width), reach, extended[reach + width - 1]);
-      smoothedInRow.ForEachRun(y + z * height, [&](SizeValueType begin, SizeValueType end) {
-        std::iota(terms.begin(), terms.end(), extended.data() + begin);
-        RowArithmetic::Blend(terms.data(), weights.data(), terms.size(), end - begin, row + begin);
+      gaussian.smoothedInRow.ForEachRun(number, [&](SizeValueType beginRun, SizeValueType endRun) {
+        std::iota(terms.begin(), terms.end(), extended.data() + beginRun);
+        RowArithmetic::Blend(terms.data(), weights.data(), terms.size(), endRun - beginRun, row + beginRun);
       });
     }
     if (hasValues[z] != 0)
     {
       const auto inScratch = [&](SizeValueType y) { return work.scratch + (y + z * height) * stride; };
-      SmoothAcrossRows(weights, rows, z * height, 1, 0, height, smoothedInPlane, inScratch, nullptr);
+      SmoothAcrossRows(weights, rows, z * height, 1, 0, height, gaussian.smoothedInPlane, inScratch, nullptr);
     }
     work.progress.Completed(1);
   });
@@ -350,7 +369,7 @@ Smooth(const MaskWork & work, double sigma, const VoxelBand & band, const RowRea
         rows[z] = hasValues[z] != 0 ? work.scratch + (y + z * height) * stride : nullptr;
       }
       SmoothAcrossRows(
-        weights, rows, y, height, begin, end, band, [&](SizeValueType) { return smoothed.data(); }, write);
+        weights, rows, y, height, begin, end, gaussian.band, [&](SizeValueType) { return smoothed.data(); }, write);
       work.progress.Completed(end == depth ? 1 : 0);
     });
   }
@@ -467,20 +486,20 @@ MatchLocalVolumes(const MaskWork & work, const Scale & scale, const VoxelBand & 
   const bool areAllSamples = std::find(hasSamples.begin(), hasSamples.end(), 0) == hasSamples.end();
   BulkVector<float> sums(areAllSamples ? 0 : placed, 0.0f); // of the lacks after the first, times the gain
   const VoxelBand matched = areAllSamples ? band : RowsOf(band, hasSamples, true);
-  const auto readMask = [&](SizeValueType row, float * values) {
+  const auto readMask = [&](SizeValueType row, SizeValueType first, SizeValueType last, float * values) {
     const std::uint8_t * const mask = work.mask + row * width;
-    for (SizeValueType x = 0; x < width && hasSamples[row] != 0; ++x)
+    for (SizeValueType x = first; x < last && hasSamples[row] != 0; ++x)
     {
       values[x] = alongX.isSample[x] * ((mask[x] != 0 ? 1.0f : 0.0f) - 0.5f); // the field is 0, its coverage 1/2
     }
     return hasSamples[row] != 0;
   };
-  const auto readLack = [&](SizeValueType row, float * values) {
+  const auto readLack = [&](SizeValueType row, SizeValueType first, SizeValueType last, float * values) {
     if (!matched.HasRow(row))
     {
       return false;
     }
-    std::fill_n(values, width, 0.0f);
+    std::fill(values + first, values + last, 0.0f);
     matched.ForEachRun(row, [&, mask = work.mask + row * width](SizeValueType begin, SizeValueType end) {
       for (SizeValueType x = begin; x < end; ++x)
       {
@@ -494,9 +513,9 @@ MatchLocalVolumes(const MaskWork & work, const Scale & scale, const VoxelBand & 
     });
     return true;
   };
-  const auto readAll = [&](SizeValueType row, float * values) {
-    const bool isRead = readMask(row, values);
-    for (SizeValueType x = 0; x < width && isRead && band.HasRow(row); ++x)
+  const auto readAll = [&](SizeValueType row, SizeValueType first, SizeValueType last, float * values) {
+    const bool isRead = readMask(row, first, last, values);
+    for (SizeValueType x = first; x < last && isRead && band.HasRow(row); ++x)
     {
       values[x] += sums[placeOfRow[row] + x];
     }
@@ -512,14 +531,15 @@ MatchLocalVolumes(const MaskWork & work, const Scale & scale, const VoxelBand & 
       }
     };
   };
-  Smooth(work, sigma, matched, readMask, add(true));
+  const GaussianInBand gaussian(sigma, matched);
+  Smooth(work, gaussian, readMask, add(true));
   for (unsigned int n = 0; n < scale.corrections; ++n)
   {
-    Smooth(work, sigma, matched, readLack, add(false));
+    Smooth(work, gaussian, readLack, add(false));
   }
   if (!areAllSamples)
   {
-    Smooth(work, sigma, RowsOf(band, hasSamples, false), readAll, add(true));
+    Smooth(work, GaussianInBand(sigma, RowsOf(band, hasSamples, false)), readAll, add(true));
   }
 }
 
@@ -561,10 +581,9 @@ Refine(const MaskWork & work, const Scale & scale, const VoxelBand & band, const
   MatchLocalVolumes(work, scale, narrow.Widened({ reach, reach, reach }).Common(band), fine.get());
   Smooth(
     work,
-    blendingSigma,
-    narrow.Widened({ blended, blended, blended }).Common(band),
-    [&](SizeValueType row, float * values) {
-      std::copy_n(&isNarrow[row * width], width, values);
+    GaussianInBand(blendingSigma, narrow.Widened({ blended, blended, blended }).Common(band)),
+    [&](SizeValueType row, SizeValueType first, SizeValueType last, float * values) {
+      std::copy(&isNarrow[row * width + first], &isNarrow[row * width + last], values + first);
       return narrow.HasRow(row);
     },
     [&](SizeValueType row, SizeValueType begin, SizeValueType end, const float * values) {

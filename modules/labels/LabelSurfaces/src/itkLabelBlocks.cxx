@@ -1,5 +1,6 @@
 #include "itkLabelBlocks.h"
 
+#include "rhombicForEachBlock.h"
 #include "rhombicLabelNumbers.h"
 
 #include <algorithm>
@@ -40,8 +41,8 @@ Widened(BulkVector<TValue> blocks, const SizeType & size, const SizeType & reach
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
     const BulkVector<TValue> before = blocks;
-    for (SizeValueType n = 0; n < blocks.size(); ++n)
-    {
+    constexpr std::size_t together = 16384;
+    rhombic::ForEachInBlocks(blocks.size(), together, [&](SizeValueType n) {
       const SizeValueType here = n / step % size[axis];
       const SizeValueType begin = here < reach[axis] ? 0 : here - reach[axis];
       const SizeValueType end = std::min(size[axis], here + reach[axis] + 1);
@@ -49,7 +50,7 @@ Widened(BulkVector<TValue> blocks, const SizeType & size, const SizeType & reach
       {
         add(blocks[n], before[n - here * step + other * step]);
       }
-    }
+    });
     step *= size[axis];
   }
   return blocks;

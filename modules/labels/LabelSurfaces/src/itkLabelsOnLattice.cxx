@@ -24,10 +24,13 @@ DivideVoxels(const Vector<double, 3> & spacing)
 StrongestLabels::StrongestLabels(FCCImage<LabelType> & labels, FCCLabelWeights & weights)
   : m_Labels(labels)
   , m_Weights(weights)
-  , m_Largest(labels.GetLargestPossibleRegion().GetNumberOfPixels(), -FCCLabelWeights::Limit)
+  , m_Largest(labels.GetLargestPossibleRegion().GetNumberOfPixels())
 {
   const auto & size = labels.GetLargestPossibleRegion().GetSize();
-  labels.FillBuffer(0);
+  ForEachRow(labels.GetLargestPossibleRegion(), [&](const Index<3> &, SizeValueType offset) {
+    std::fill_n(m_Largest.data() + offset, size[0], -FCCLabelWeights::Limit);
+    std::fill_n(labels.GetBufferPointer() + offset, size[0], LabelType{ 0 });
+  });
   weights.SetNumberOfRows(size[1] * size[2]);
 }
 

@@ -499,7 +499,10 @@ BulkVector<std::uint8_t>
 FindSitesOfOneNeighbor(const RefinedMap & map, const LabelBlocks & junctions, const FieldLattice & lattice)
 {
   const ImageRegion<3> & whole = lattice.GetLargestPossibleRegion();
-  BulkVector<std::uint8_t> hasOneNeighbor(whole.GetNumberOfPixels(), 0);
+  BulkVector<std::uint8_t> hasOneNeighbor(whole.GetNumberOfPixels());
+  ForEachRow(whole, [&](const Index<3> &, SizeValueType offset) {
+    std::fill_n(hasOneNeighbor.data() + offset, whole.GetSize(0), std::uint8_t{ 0 });
+  });
   const auto offsetOf = [&whole](const Index<3> & site) {
     const Offset<3> from = site - whole.GetIndex();
     return (static_cast<SizeValueType>(from[2]) * whole.GetSize(1) + static_cast<SizeValueType>(from[1])) *

@@ -47,6 +47,17 @@ public:
     return m_Rows[row] != 0;
   }
 
+  /** From the first voxel of a row to behind the last. */
+  std::array<SizeValueType, 2>
+  FindRange(SizeValueType row) const
+  {
+    std::array<SizeValueType, 2> range{ m_Size[0], 0 };
+    this->ForEachRun(row, [&range](SizeValueType begin, SizeValueType end) {
+      range = { std::min(range[0], begin), end };
+    });
+    return range;
+  }
+
   /** Calls use(begin, end) for the runs of voxels of a row, ascending. */
   template <typename TUse>
   void

@@ -55,7 +55,7 @@ BoundedMoves::BoundedMoves(TriangleSurface & surface,
   , m_Limits(limits)
   , m_Start(surface.GetPoints())
   , m_StartAreas(surface.GetNumberOfTriangles())
-  , m_Next(surface.GetPoints())
+  , m_Next(surface.GetNumberOfPoints())
 {
   rhombic::ForEachInBlocks(m_StartAreas.size(), MovedBlock, [&](SizeValueType id) {
     m_StartAreas[id] = AreaVector(CornersOf(m_Start, std::as_const(m_Surface).GetTriangles()[id]));
@@ -144,10 +144,17 @@ BoundedMoves::PutBackSpoilt(BulkVector<std::uint32_t> spoilt)
   }
 }
 
-/** Copies the positions of the corners of some triangles. */
+/** Copies the positions of the corners of some triangles, or all positions where these are many: on threads, as no two
+ * of them write the same. Others do not differ, or are not used. */
 void
 BoundedMoves::CopyCorners(const BulkVector<std::uint32_t> & triangles, const Points & from, Points & to) const
 {
+  constexpr std::size_t many = 16; // of so many triangles, one
+  if (triangles.size() > m_StartAreas.size() / many)
+  {
+    rhombic::ForEachInBlocks(to.size(), MovedBlock, [&](SizeValueType point) { to[point] = from[point]; });
+    return;
+  }
   for (const std::uint32_t id : triangles)
   {
     for (const std::uint32_t point : std::as_const(m_Surface).GetTriangles()[id])

@@ -104,9 +104,9 @@ Filter(const SheetNeighbours & neighbours,
        Values<TValue> & values,
        rhombic::StagedProgress & progress)
 {
-  Values<TValue> last = values;
-  Values<TValue> current = values;
-  Values<TValue> next(values.size());
+  Values<TValue> last(values.size()); // becomes the next
+  Values<TValue> current(values.size());
+  current.swap(values);
   for (std::size_t n = 0; n < coefficients.size(); ++n)
   {
     const auto share = static_cast<float>(coefficients[n]);
@@ -115,13 +115,12 @@ Filter(const SheetNeighbours & neighbours,
       {
         const TValue here = current[point];
         const TValue sum = here + MeanOfNeighbours(neighbours, current, point);
-        next[point] = n == 0 ? 0.5f * sum : sum - last[point];
+        last[point] = n == 0 ? 0.5f * sum : sum - last[point];
         values[point] = (n == 0 ? TValue{} : values[point]) + share * here;
       }
       progress.Completed(end - begin);
     });
     last.swap(current);
-    current.swap(next);
   }
 }
 
@@ -158,25 +157,24 @@ SheetNeighbours::SheetNeighbours(const TrianglesOfPoints & fans, const PointStra
   : m_Begin(1, 0)
 {
   m_Begin.reserve(strata.strata.size() + 1);
-  std::size_t size = 2 * strata.curves.size();
+  std::size_t size = 0;
   for (std::size_t point = 0; point < strata.strata.size(); ++point)
   {
-    size += strata.strata[point] == Stratum::Sheet ? fans.GetNumberOfTriangles(point) : 0;
+    const Stratum stratum = strata.strata[point];
+    size += stratum == Stratum::Sheet ? fans.GetNumberOfTriangles(point) : stratum == Stratum::Curve ? 2 : 0;
+    m_Begin.push_back(size);
   }
-  m_Ids.reserve(size);
-  auto curve = strata.curves.begin();
-  for (std::uint32_t point = 0; point < strata.strata.size(); ++point)
-  {
+  m_Ids.resize(size);
+  rhombic::ForEachInBlocks(strata.strata.size(), Block, [&](SizeValueType point) {
     if (strata.strata[point] == Stratum::Sheet)
     {
-      fans.VisitNeighbours(point, [&](std::uint32_t next, std::uint32_t) { m_Ids.push_back(next); });
+      std::uint32_t * id = m_Ids.data() + m_Begin[point];
+      fans.VisitNeighbours(point, [&id](std::uint32_t next, std::uint32_t) { *id++ = next; });
     }
-    else if (strata.strata[point] == Stratum::Curve)
-    {
-      m_Ids.insert(m_Ids.end(), curve->neighbours.begin(), curve->neighbours.end());
-      ++curve;
-    }
-    m_Begin.push_back(m_Ids.size());
+  });
+  for (const CurvePoint & curve : strata.curves)
+  {
+    std::copy(curve.neighbours.begin(), curve.neighbours.end(), m_Ids.data() + m_Begin[curve.point]);
   }
 }
 

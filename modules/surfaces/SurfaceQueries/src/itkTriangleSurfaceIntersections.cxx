@@ -190,6 +190,15 @@ private:
   Flags m_AreUnfolded;
 };
 
+/** Finds which of the marked points are unfolded, in place of the marks. */
+void
+FindUnfoldedOfMarked(const TriangleSurface & surface, const TrianglesOfPoints & fans, Flags & marks)
+{
+  rhombic::ForEachInBlocks(marks.size(), BlockOfPoints, [&](std::size_t point) {
+    marks[point] = marks[point] != 0 && IsUnfoldedPoint(surface, fans, static_cast<std::uint32_t>(point));
+  });
+}
+
 /** The triangles of a tree that cross others of it, or are in another contact of at least that kind, ascending. */
 BulkVector<std::uint32_t>
 FindAllCrossing(const TriangleTree & tree,
@@ -265,10 +274,8 @@ FindCrossingAtEdges(const TriangleSurface & surface,
 Flags
 FindUnfoldedPoints(const TriangleSurface & surface, const TrianglesOfPoints & fans)
 {
-  Flags areUnfolded(surface.GetNumberOfPoints());
-  rhombic::ForEachInBlocks(areUnfolded.size(), BlockOfPoints, [&](std::size_t point) {
-    areUnfolded[point] = IsUnfoldedPoint(surface, fans, static_cast<std::uint32_t>(point));
-  });
+  Flags areUnfolded(surface.GetNumberOfPoints(), 1);
+  FindUnfoldedOfMarked(surface, fans, areUnfolded);
   return areUnfolded;
 }
 
@@ -326,10 +333,7 @@ FindCrossingTriangles(const TriangleTree & tree,
       }
     }
   }
-  rhombic::ForEachInBlocks(areUnfolded.size(), BlockOfPoints, [&](std::size_t point) {
-    areUnfolded[point] =
-      areUnfolded[point] != 0 && IsUnfoldedPoint(tree.GetSurface(), fans, static_cast<std::uint32_t>(point));
-  });
+  FindUnfoldedOfMarked(tree.GetSurface(), fans, areUnfolded);
   rhombic::StagedProgress silent({});
   return FindAllCrossing(tree, std::move(areUnfolded), least, progress == nullptr ? silent : *progress, stageEnd);
 }
@@ -341,17 +345,15 @@ FindCrossingTriangles(const TriangleTree & tree,
                       Contact least)
 {
   const TriangleSurface & surface = tree.GetSurface();
-  BulkVector<std::uint32_t> corners;
+  Flags areUnfolded(surface.GetNumberOfPoints(), 0); // none but corners of candidates
   for (const std::uint32_t candidate : candidates)
   {
-    const TriangleType & triangle = surface.GetTriangles()[candidate];
-    corners.insert(corners.end(), triangle.begin(), triangle.end());
+    for (const std::uint32_t corner : surface.GetTriangles()[candidate])
+    {
+      areUnfolded[corner] = 1;
+    }
   }
-  SortUnique(corners);
-  Flags areUnfolded(surface.GetNumberOfPoints(), 0); // none but corners of candidates
-  rhombic::ForEachInBlocks(corners.size(), BlockOfPoints, [&](std::size_t n) {
-    areUnfolded[corners[n]] = IsUnfoldedPoint(surface, fans, corners[n]);
-  });
+  FindUnfoldedOfMarked(surface, fans, areUnfolded);
   const TriangleTree ofCandidates(surface, candidates);
   const ContactSearch search(ofCandidates, std::move(areUnfolded), TrianglesOfSample);
   return CollectIds(search.GetNumberOfParts(), PartsOfBlock, [&](std::size_t begin, std::size_t end, auto & found) {
