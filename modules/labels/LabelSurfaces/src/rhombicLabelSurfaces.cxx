@@ -132,7 +132,6 @@ ExtractWalls(itk::SmartPointer<TFilter> toLattice,
   walls->DisconnectPipeline();
   extract = nullptr;
   toLattice = nullptr;
-  GiveBackFreedMemory();
   itk::RelaxLabelWalls(*walls, relaxation, volumes);
   return walls;
 }
