@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <utility>
 
 namespace itk
 {
@@ -210,7 +209,7 @@ KeepLabelVolumes(const LabelsToKeep & keep,
       sites += static_cast<double>(keep.sites[label].GetNumberOfPixels());
     }
     isTogether = isTogether && (n == 0 || sites > mostAlone); // others may move no more once one moves alone
-    std::vector<double> steps =
+    const std::vector<double> steps =
       isTogether ? offsets.FindSteps(labels, weights) : offsets.FindStepsAlone(unsettled, labels, weights);
     unsettled.clear();
     for (std::size_t label = 1; label < steps.size(); ++label)
@@ -220,7 +219,7 @@ KeepLabelVolumes(const LabelsToKeep & keep,
         unsettled.push_back(label);
       }
     }
-    topology.AddOffsets(std::move(steps));
+    topology.AddOffsets(steps, keep.sites);
   }
 }
 

@@ -180,21 +180,49 @@ LabelTopology::FindWeights(const TTest & test)
   });
 }
 
-LabelTopology::Changes
-LabelTopology::FindChanges(std::vector<double> offsets)
+BulkVector<std::uint8_t>
+LabelTopology::FindRowsToChange(const std::vector<double> & offsets, const std::vector<ImageRegion<3>> & boxes) const
 {
-  offsets.resize(std::numeric_limits<LabelType>::max() + std::size_t{ 1 });
+  const ImageRegion<3> & whole = m_Labels.GetLargestPossibleRegion();
+  BulkVector<std::uint8_t> rows(m_Weights.GetNumberOfRows(), boxes.empty() ? 1 : 0);
+  for (std::size_t label = 0; label < std::min(offsets.size(), boxes.size()); ++label)
+  {
+    const ImageRegion<3> & box = boxes[label];
+    for (SizeValueType k = 0; k < box.GetSize(2) && offsets[label] != 0.0; ++k)
+    {
+      const auto y = static_cast<SizeValueType>(box.GetIndex(1) - whole.GetIndex(1));
+      const SizeValueType z = static_cast<SizeValueType>(box.GetIndex(2) - whole.GetIndex(2)) + k;
+      std::fill_n(rows.data() + z * whole.GetSize(1) + y, box.GetSize(1), std::uint8_t{ 1 });
+    }
+  }
+  for (const Change & raised : m_Raised)
+  {
+    rows[raised.site / whole.GetSize(0)] = 1;
+  }
+  return rows;
+}
+
+LabelTopology::Changes
+LabelTopology::FindChanges(const std::vector<double> & offsets, const BulkVector<std::uint8_t> & areRowsToChange)
+{
+  std::vector<float> added(offsets.begin(), offsets.end());
+  added.resize(std::numeric_limits<LabelType>::max() + std::size_t{ 1 });
   return this->CollectChanges([&](auto & entries, SizeValueType firstSite, Changes & found) {
+    if (areRowsToChange[firstSite / m_Labels.GetLargestPossibleRegion().GetSize(0)] == 0)
+    {
+      return;
+    }
     for (auto begin = entries.begin(), end = begin; begin != entries.end(); begin = end)
     {
       // The weights of one site: the weight of its label, if stored, is to be exceeded.
       const SizeValueType site = firstSite + begin->i;
+      const LabelType label = this->LabelOf(site);
       float own = std::numeric_limits<float>::max();
       auto strongest = begin;
       for (; end != entries.end() && end->i == begin->i; ++end)
       {
-        end->weight += static_cast<float>(offsets[end->label]);
-        own = end->label == this->LabelOf(site) ? end->weight : own;
+        end->weight += added[end->label];
+        own = end->label == label ? end->weight : own;
         strongest = end->weight > strongest->weight ? end : strongest;
       }
       if (strongest->weight > own)
@@ -332,10 +360,11 @@ LabelTopology::LowerRaised()
 }
 
 void
-LabelTopology::AddOffsets(std::vector<double> offsets)
+LabelTopology::AddOffsets(const std::vector<double> & offsets, const std::vector<ImageRegion<3>> & boxes)
 {
+  const BulkVector<std::uint8_t> areRowsToChange = this->FindRowsToChange(offsets, boxes);
   this->LowerRaised();
-  m_Raised = this->FindChanges(std::move(offsets));
+  m_Raised = this->FindChanges(offsets, areRowsToChange);
   this->MakeChanges(m_Raised);
   for (Change & raised : m_Raised)
   {

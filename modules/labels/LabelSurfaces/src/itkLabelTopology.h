@@ -68,9 +68,11 @@ public:
   Assign(Candidates candidates);
 
   /** Adds an offset to all weights of each label.
-   * \param offsets by label; 0 for labels past the end */
+   * \param offsets by label; 0 for labels past the end
+   * \param boxes of sites that hold all weights of a label, by label; empty if not known. Rows without a label that has
+   * an offset take no time then */
   void
-  AddOffsets(std::vector<double> offsets);
+  AddOffsets(const std::vector<double> & offsets, const std::vector<ImageRegion<3>> & boxes = {});
 
 private:
   /** The labels of a site's neighbours (see FCCCells), by direction; 0 beyond the lattice. */
@@ -139,9 +141,14 @@ private:
   Changes
   FindWeights(const TTest & test);
 
-  /** Adds offsets to the weights, and finds the changes after which each site has the label of largest weight. */
+  /** For each row of the lattice, 1 where weights get an offset or were raised. */
+  BulkVector<std::uint8_t>
+  FindRowsToChange(const std::vector<double> & offsets, const std::vector<ImageRegion<3>> & boxes) const;
+
+  /** Adds offsets to the weights of some rows, and finds the changes after which each site of the rows has the label of
+   * largest weight. */
   Changes
-  FindChanges(std::vector<double> offsets);
+  FindChanges(const std::vector<double> & offsets, const BulkVector<std::uint8_t> & areRowsToChange);
 
   /** Whether a change keeps the topology of both labels, and labels apart that must not meet. */
   bool
