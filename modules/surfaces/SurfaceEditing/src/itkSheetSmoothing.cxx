@@ -17,7 +17,7 @@ struct Lanes
 {
   using Register [[gnu::vector_size(16)]] = float;
 
-  Register lanes{};
+  Register lanes;
 
   Lanes() = default;
 
