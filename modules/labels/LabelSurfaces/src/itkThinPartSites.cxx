@@ -22,17 +22,23 @@ PositionOf(const FCCLattice::SiteType & site)
   return { static_cast<double>(site[0]), static_cast<double>(site[1]), static_cast<double>(site[2]) };
 }
 
-/** The normals of the faces of the Voronoi cell of the site 0. */
+/** The normals of the faces of the Voronoi cell of the site 0, in the order of the bits of FacesBefore(): opposite
+ * faces have the sums and the differences of two axes. */
 const auto FaceNormals = [] {
   std::array<PositionType, FCCLattice::NearestNeighbors.size()> normals{};
-  std::transform(FCCLattice::NearestNeighbors.begin(), FCCLattice::NearestNeighbors.end(), normals.begin(), PositionOf);
+  for (unsigned int face = 0; face < normals.size(); ++face)
+  {
+    const double side = face % 2 == 0 ? 1.0 : -1.0;
+    normals[face][face / 4] = side;
+    normals[face][(face / 4 + 1) % 3] = face % 4 < 2 ? side : -side;
+  }
   return normals;
 }();
 
 /** A convex polygon: a triangle, or what planes leave of it. */
 struct Polygon
 {
-  std::array<PositionType, 3 + FCCLattice::NearestNeighbors.size()> corners;
+  std::array<PositionType, 3 + FaceNormals.size()> corners;
   std::size_t size = 0;
 
   void
@@ -50,19 +56,24 @@ SortUniqueSites(Sites & sites)
 }
 
 /** Whether a convex polygon meets the Voronoi cell of the site 0: whether a part of it is within all of the cell's
- * faces. */
+ * faces.
+ * \param faces those beyond which corners are */
 bool
-MeetsCell(Polygon polygon)
+MeetsCell(Polygon polygon, unsigned int faces)
 {
-  for (const PositionType & normal : FaceNormals)
+  for (unsigned int face = 0; face < FaceNormals.size(); ++face)
   {
+    if ((faces >> face & 1) == 0)
+    {
+      continue;
+    }
     Polygon rest;
     for (std::size_t n = 0; n < polygon.size; ++n)
     {
       const PositionType & here = polygon.corners[n];
       const PositionType & there = polygon.corners[n + 1 < polygon.size ? n + 1 : 0];
-      const double from = Dot(normal, here) - Inside;
-      const double to = Dot(normal, there) - Inside;
+      const double from = Dot(FaceNormals[face], here) - Inside;
+      const double to = Dot(FaceNormals[face], there) - Inside;
       if (from <= 0.0)
       {
         rest.Add(here);
@@ -81,8 +92,7 @@ MeetsCell(Polygon polygon)
   return true;
 }
 
-/** The faces of the Voronoi cell of the site 0 beyond which a point is, a bit for each: the normals of opposite faces
- * are the sums and the differences of two axes. */
+/** The faces of the Voronoi cell of the site 0 beyond which a point is, a bit for each. */
 unsigned int
 FacesBefore(const PositionType & point)
 {
@@ -113,22 +123,27 @@ HullMeetsCell(const std::vector<PositionType> & points)
   {
     return true;
   }
-  const auto meetsCell = [](std::initializer_list<PositionType> corners) {
+  const auto meetsCell = [&](std::initializer_list<std::size_t> corners) {
     Polygon polygon;
-    std::for_each(corners.begin(), corners.end(), [&polygon](const PositionType & corner) { polygon.Add(corner); });
-    return MeetsCell(polygon);
+    unsigned int beyond = 0;
+    for (const std::size_t corner : corners)
+    {
+      polygon.Add(points[corner]);
+      beyond |= faces[corner];
+    }
+    return MeetsCell(polygon, beyond);
   };
   for (std::size_t a = 0; a < points.size(); ++a)
   {
     for (std::size_t b = a + 1; b < points.size(); ++b)
     {
-      if (points.size() == 2 && meetsCell({ points[a], points[b] }))
+      if (points.size() == 2 && meetsCell({ a, b }))
       {
         return true;
       }
       for (std::size_t c = b + 1; c < points.size(); ++c)
       {
-        if ((faces[a] & faces[b] & faces[c]) == 0 && meetsCell({ points[a], points[b], points[c] }))
+        if ((faces[a] & faces[b] & faces[c]) == 0 && meetsCell({ a, b, c }))
         {
           return true;
         }
