@@ -386,12 +386,13 @@ TEST(Batch, KilledRunsGoOnToTheSameOutputs)
   }
 }
 
-/** Starts a run in the background, and stops its process when it works on a case, which takes long. */
+/** Starts a run in the background, and stops its process when it works on a case, which takes long; fails if it ends
+ * before. */
 std::string
 StartRun(const std::string & options)
 {
   return std::string(command) + "-o out " + options +
-         " &\nuntil ls -d out/.stage-* 2>&1; do sleep 0.01; done\nkill -STOP $!\n";
+         " &\nuntil ls -d out/.stage-* 2>&1; do kill -0 $!; sleep 0.01; done\nkill -STOP $!\n";
 }
 
 TEST(Batch, ACaseThatCanNotBePutInPlaceHasNoOutputs)

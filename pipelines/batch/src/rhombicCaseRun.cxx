@@ -204,7 +204,9 @@ CaseRun::StartStep()
   child.arguments = { m_Settings.program.string(), m_Settings.requestOption };
   child.input = m_Stage / requestFile;
   child.output = m_Stage / resultFile;
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // which keep all memory for themselves
   child.memory = m_Settings.maximumMemory;
+#endif
   m_Child = std::make_unique<ChildProcess>(child);
 }
 
