@@ -6,6 +6,8 @@
 #include "rhombicResampleScan.h"
 
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 
 namespace rhombic
@@ -21,12 +23,14 @@ namespace rhombic
 std::string
 PlanMeshScan(const MeshScanSettings & settings, const Events & events);
 
-/** Surfaces of a scan that are drawn, as PlanMeshScan(). \param source as MakePictureSource() of DrawingPipelines has
- * it
- */
+/** Finds the part of labels that pictures need, as LabelSurfaceSettings::part. */
+using FindPart = std::function<std::optional<itk::ImageRegion<3>>(const LoadedSource & loaded)>;
+
+/** Surfaces of a scan that are drawn, as PlanMeshScan(). */
 std::string
-PlanPictures(const ScanSource & source,
-             const SurfaceSelection & surfaces,
+PlanPictures(const SurfaceWork & work,
+             const CountDrawing & countDrawing,
+             const FindPart & findPart,
              const std::filesystem::path & picture,
              const Events & events);
 

@@ -17,7 +17,9 @@ namespace rhombic
 struct MeshEstimate
 {
   double triangles = 0.0;
+  double kept = 0.0;                 ///< of the triangles: but for those of surfaces that are only looked at
   SurfaceBytes bytes;                ///< in memory
+  std::uintmax_t bits = 0;           ///< of bytes.besideSlab: what can't be in temporary files
   std::uintmax_t temporaryBytes = 0; ///< in temporary files, see PutIntoTemporaryFiles()
 };
 
@@ -65,11 +67,6 @@ CountSteps(const MeshSteps & steps, MeshEstimate & mesh);
 /** Takes surfaces out of the memory but for what can't be in temporary files. */
 void
 PutIntoTemporaryFiles(MeshEstimate & mesh);
-
-/** Throws Failure(Memory) for surfaces to draw that the memory (all that is free, without a limit) can't hold. Does
- * nothing for a denoised scan, whose surfaces may be far smaller. */
-void
-CheckDrawnMesh(const MeshEstimate & mesh, const LatticeSettings & lattice);
 
 } // namespace rhombic
 

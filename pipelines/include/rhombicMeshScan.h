@@ -9,6 +9,7 @@
 #include "rhombicSidecar.h"
 #include "rhombicSurfaceFinish.h"
 #include "rhombicSurfaceIO.h"
+#include "rhombicSurfaceMemory.h"
 
 #include <filesystem>
 #include <optional>
@@ -41,27 +42,16 @@ constexpr char NamePlaceholder[] = "{name}";
 std::vector<std::filesystem::path>
 CheckMeshScan(const MeshScanSettings & settings);
 
-/** For surfaces that the memory (all that is free, without a limit) can't hold: puts them into temporary files, but
- * throws Failure(Memory) where there is no room, or where settings need them in memory: simplification, smoothing,
- * parts, colours and thickness. Throws it for surfaces that the file can't hold, too. MeshScan() calls it before its
- * work. A denoised scan, whose surfaces may be far smaller, is not refused; surfaces of up to 4 MiB are never too large
- * for the memory. Bytes do not depend on where surfaces are. */
+/** FitIntoMemory(). Throws Failure(Memory) for surfaces that neither the memory (all that is free, without a limit) nor
+ * temporary files can hold, and for those that the file can't hold. MeshScan() calls it before its work. A denoised
+ * scan, whose surfaces may be far smaller, is not refused; surfaces of up to 4 MiB are never too large for the memory.
+ */
 void
 CheckMesh(MeshEstimate & mesh, const MeshScanSettings & settings);
 
-/** Temporary files for surfaces. */
-TemporaryStore
-SurfaceStore(const MeshEstimate & mesh, const MeshScanSettings & settings);
-
-/** Counts what is done to the surfaces of labels, too, and returns whether the work needs temporary files, as the
- * memory that is allowed can't hold it. Throws Failure(Memory) where there is no room for them, or where probabilities,
- * or colours by a label map, need memory. */
-bool
-CheckLabels(LabelWork & work, const MeshScanSettings & settings);
-
-/** Temporary files for labels and their surfaces. */
-TemporaryStore
-LabelStore(const MeshScanSettings & settings);
+/** The settings' surfaces. */
+SurfaceWork
+WorkOf(const MeshScanSettings & settings);
 
 /** Writes surfaces of a scan; returns all files. Measures and the distance from the scan's isosurface are taken
  * while a file is written, and hold for it, as it is read back and compared; the audit is that of the surface read

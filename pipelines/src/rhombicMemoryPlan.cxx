@@ -162,6 +162,12 @@ DescribeMemory(std::uintmax_t bytes, std::uintmax_t limit)
 }
 
 std::string
+DescribeDrawing(std::uintmax_t bytes)
+{
+  return bytes > 0 ? ", then " + DescribeBytes(bytes) + " to draw them" : "";
+}
+
+std::string
 DescribeUnwritten(const std::filesystem::path & output)
 {
   return "dry run       " + output.string() + " was not made\n";
@@ -193,9 +199,10 @@ struct SurfacePlanning
   const ScanSource & source;
   const SurfaceSelection & surfaces;
   const fs::path & output;
-  std::function<void(MeshEstimate & mesh)> check;
-  std::function<bool(LabelWork & work)> checkLabels; ///< returns whether they are put into temporary files
-  bool isMeasured; ///< whether the volume that isosurfaces enclose is estimated from the lattice
+  std::function<std::uintmax_t(MeshEstimate & mesh)> check; ///< returns the bytes to draw surfaces, as the next
+  std::function<std::uintmax_t(LabelWork & labels, bool & isInFiles)> checkLabels;
+  FindPart findPart; ///< empty: all
+  bool isMeasured;   ///< whether the volume that isosurfaces enclose is estimated from the lattice
 };
 
 /** How often the lattice is made in slabs: by extraction, of what is above and of what is below isovalues, and for the
@@ -247,6 +254,7 @@ PlanLabels(const SurfacePlanning & planning, const UnreadSource & unread)
   const ScanSource & source = planning.source;
   std::string text = "voxels        " + DescribePlace(unread, source.read) + '\n';
   std::uintmax_t bytes = unread.CountInMemory();
+  std::uintmax_t drawing = 0;
   if (unread.place == VoxelPlace::TemporaryFile)
   {
     text += "surfaces      not known before the voxels are read\n";
@@ -257,12 +265,14 @@ PlanLabels(const SurfacePlanning & planning, const UnreadSource & unread)
     LabelSurfaceSettings settings;
     settings.labels = planning.surfaces.labels->labels;
     settings.density = source.lattice.density;
+    settings.part = planning.findPart ? planning.findPart(loaded) : std::nullopt;
     LabelWork work = EstimateLabelWork(*loaded.labels, settings);
-    const bool isInFiles = planning.checkLabels(work);
+    bool isInFiles = false;
+    drawing = planning.checkLabels(work, isInFiles);
     text += DescribeSurfaces(planning, work.triangles, isInFiles ? work.bytes : 0);
     bytes += isInFiles ? 0 : work.bytes;
   }
-  return text + "memory        " + DescribeMemory(bytes, source.read.maximumMemory) + '\n' +
+  return text + "memory        " + DescribeMemory(bytes, source.read.maximumMemory) + DescribeDrawing(drawing) + '\n' +
          DescribeUnwritten(planning.output);
 }
 
@@ -297,13 +307,14 @@ PlanSurfaces(const SurfacePlanning & planning, const Events & events)
   }
   std::string text = "voxels        " + DescribePlace(unread, source.read) + '\n';
   std::uintmax_t volumes = unread.CountInMemory();
+  std::uintmax_t drawing = 0;
   LatticePlan plan;
   if (!requests.empty())
   {
     LatticeStream stream;
     stream.mayBeInSlabs = MayBeInSlabs(requests);
     stream.check = [&] {
-      planning.check(mesh); // nothing is refused of a mesh that is not known
+      drawing = planning.check(mesh); // nothing is refused of a mesh that is not known
       stream.surfaces = mesh.bytes;
     };
     plan = PlanLattice(unread, source.lattice, stream, events);
@@ -325,8 +336,8 @@ PlanSurfaces(const SurfacePlanning & planning, const Events & events)
     text += "labels        not known before their map is read\n";
   }
   return text + "memory        " + DescribeMemory(volumes, source.read.maximumMemory) +
-         (known.empty() ? "" : ", then " + DescribeBytes(mesh.bytes.afterwards) + " for the surfaces") + '\n' +
-         DescribeUnwritten(planning.output);
+         (known.empty() ? "" : ", then " + DescribeBytes(mesh.bytes.afterwards) + " for the surfaces") +
+         DescribeDrawing(drawing) + '\n' + DescribeUnwritten(planning.output);
 }
 
 } // namespace
@@ -335,23 +346,29 @@ std::string
 PlanMeshScan(const MeshScanSettings & settings, const Events & events)
 {
   CheckOutputs(CheckMeshScan(settings), settings.source, settings.surfaces, InputsOf(settings.colourBy));
-  const auto check = [&settings](MeshEstimate & mesh) { CheckMesh(mesh, settings); };
-  const auto checkLabels = [&settings](LabelWork & work) { return CheckLabels(work, settings); };
-  return PlanSurfaces({ settings.source, settings.surfaces, settings.mesh, check, checkLabels, true }, events);
+  const auto check = [&settings](MeshEstimate & mesh) {
+    CheckMesh(mesh, settings);
+    return 0;
+  };
+  const auto checkLabels = [&settings](LabelWork & labels, bool & isInFiles) {
+    isInFiles = FitIntoMemory(labels, WorkOf(settings));
+    return 0;
+  };
+  return PlanSurfaces({ settings.source, settings.surfaces, settings.mesh, check, checkLabels, {}, true }, events);
 }
 
 std::string
-PlanPictures(const ScanSource & source,
-             const SurfaceSelection & surfaces,
+PlanPictures(const SurfaceWork & work,
+             const CountDrawing & countDrawing,
+             const FindPart & findPart,
              const fs::path & picture,
              const Events & events)
 {
-  const auto check = [&source](const MeshEstimate & mesh) { CheckDrawnMesh(mesh, source.lattice); };
-  const auto checkLabels = [&source](const LabelWork & work) {
-    RequireMemory(work, source.lattice.maximumMemory);
-    return false;
+  const auto check = [&](MeshEstimate & mesh) { return FitDrawn(mesh, work, countDrawing); };
+  const auto checkLabels = [&](LabelWork & labels, bool & isInFiles) {
+    return FitDrawn(labels, work, countDrawing, isInFiles);
   };
-  return PlanSurfaces({ source, surfaces, picture, check, checkLabels, false }, events);
+  return PlanSurfaces({ work.source, work.surfaces, picture, check, checkLabels, findPart, false }, events);
 }
 
 std::string

@@ -134,15 +134,13 @@ constexpr double BytesOfExtracted = 24.0; // of a triangle with its share of the
 
 /** The memory of surfaces of which large ones are made in fewer triangles. */
 SurfaceBytes
-BytesForViews(const MeshEstimate & mesh, double mostTriangles)
+BytesForViews(const MeshEstimate & mesh)
 {
   constexpr double bytesWhileSmoothed = 120.0; // of a triangle of a surface that keeps all
   constexpr double bytesOfBlocks = 500e6;      // where triangles are made fewer
-  const bool isLarge = mesh.triangles > mostTriangles;
-  const double kept = std::min(mesh.triangles, mostTriangles);
-  const double bits = static_cast<double>(mesh.bytes.besideSlab) - mesh.triangles * BytesOfExtracted;
-  return { static_cast<std::uintmax_t>(bits + kept * BytesOfExtracted + (isLarge ? bytesOfBlocks : 0.0)),
-           static_cast<std::uintmax_t>(kept * bytesWhileSmoothed) };
+  const bool isLarge = mesh.triangles > mesh.kept;
+  return { mesh.bits + static_cast<std::uintmax_t>(mesh.kept * BytesOfExtracted + (isLarge ? bytesOfBlocks : 0.0)),
+           static_cast<std::uintmax_t>(mesh.kept * bytesWhileSmoothed) };
 }
 
 } // namespace
@@ -203,11 +201,14 @@ EstimateMesh(const SampledSlices & sample,
     std::visit([&](const auto & image) { count(image, request.GetThreshold()); }, sample.image);
   }
   estimate.triangles *= std::pow(relativeDensity, 2.0 / 3.0);
-  estimate.bytes = { static_cast<std::uintmax_t>(estimate.triangles * BytesOfExtracted + bits),
+  estimate.bits = static_cast<std::uintmax_t>(bits);
+  estimate.bytes = { estimate.bits + static_cast<std::uintmax_t>(estimate.triangles * BytesOfExtracted),
                      static_cast<std::uintmax_t>(estimate.triangles * bytesWithSearch) };
+  estimate.kept = estimate.triangles;
   if (mostTriangles > 0.0)
   {
-    estimate.bytes = BytesForViews(estimate, mostTriangles * static_cast<double>(requests.size()));
+    estimate.kept = std::min(estimate.triangles, mostTriangles * static_cast<double>(requests.size()));
+    estimate.bytes = BytesForViews(estimate);
   }
   return estimate;
 }
@@ -234,21 +235,9 @@ void
 PutIntoTemporaryFiles(MeshEstimate & mesh)
 {
   constexpr double bytesOfRest = 2.0; // of a triangle, while its file is written; measured: 1
-  mesh.temporaryBytes = mesh.bytes.afterwards;
-  mesh.bytes.besideSlab -= static_cast<std::uintmax_t>(mesh.triangles * BytesOfExtracted);
+  mesh.temporaryBytes = std::max(mesh.bytes.afterwards, mesh.bytes.besideSlab - mesh.bits);
+  mesh.bytes.besideSlab = mesh.bits;
   mesh.bytes.afterwards = static_cast<std::uintmax_t>(mesh.triangles * bytesOfRest);
-}
-
-void
-CheckDrawnMesh(const MeshEstimate & mesh, const LatticeSettings & lattice)
-{
-  if (lattice.denoising.kind == Denoising::Kind::None)
-  {
-    RequireMemory(mesh.bytes.afterwards,
-                  lattice.maximumMemory > 0 ? lattice.maximumMemory : FreeMemory(),
-                  "Drawing surfaces of " + DescribeTriangles(mesh.triangles),
-                  "use a coarser lattice with --density, another threshold or a part of the scan");
-  }
 }
 
 } // namespace rhombic

@@ -394,66 +394,6 @@ AdviseCoarser(const LatticeSettings & lattice, double share)
   return "use " + coarser + "another threshold or a part of the scan";
 }
 
-/** Whether surfaces are coloured by those of a label map, which are made in memory. */
-bool
-AreColouredByLabels(const MeshScanSettings & settings)
-{
-  const auto & by = settings.colourBy;
-  return by && by->kind == ColourBy::Kind::Distance && !IsSurfacePath(by->file);
-}
-
-/** Whether all arrays of the surfaces' size may be in temporary files. */
-bool
-MayBeInTemporaryFiles(const MeshScanSettings & settings)
-{
-  return MayBeInSlabs(settings.surfaces.requests) && !AreColouredByLabels(settings);
-}
-
-/** The bytes that all may take, and surfaces, less than which the program itself takes. */
-std::uintmax_t
-AllowedBytes(const MeshScanSettings & settings)
-{
-  constexpr std::uintmax_t small = std::uintmax_t{ 4 } << 20;
-  const std::uintmax_t most = settings.source.lattice.maximumMemory;
-  return std::max(MemoryAllowance(most > 0 ? most : FreeMemory()), small);
-}
-
-/** What colours come from, while surfaces are in temporary files. */
-ColourBy
-WithinMemory(ColourBy by, const MeshScanSettings & settings)
-{
-  by.maximumMemory = AllowedBytes(settings) / 2;
-  by.temporaryFolder = settings.source.read.temporaryFolder;
-  return by;
-}
-
-MeshSteps
-StepsOf(const MeshScanSettings & settings)
-{
-  MeshSteps steps;
-  for (const SurfaceRequest & request : settings.surfaces.requests)
-  {
-    const SurfaceFinish finish = CombineFinish(request.finish, settings.finish);
-    steps.smooths = steps.smooths || !finish.smoothing.IsNothing();
-    steps.simplifies = steps.simplifies || finish.Simplifies();
-  }
-  steps.colours = settings.colourBy.has_value();
-  return steps;
-}
-
-void
-NoteTemporaryFiles(const std::string & what,
-                   double triangles,
-                   std::uintmax_t bytes,
-                   const MeshScanSettings & settings,
-                   const Events & events)
-{
-  events.Note(what + ", " + DescribeTriangles(triangles) + ", are put into temporary files of some " +
-              DescribeBytes(bytes) + " in " +
-              TemporaryStore{ settings.source.read.temporaryFolder, {} }.FindFolder().string() +
-              ", as they do not fit into the memory that is allowed");
-}
-
 } // namespace
 
 std::vector<fs::path>
@@ -475,11 +415,10 @@ CheckMeshScan(const MeshScanSettings & settings)
   return OutputsOf({ settings.mesh }, settings);
 }
 
-TemporaryStore
-SurfaceStore(const MeshEstimate & mesh, const MeshScanSettings & settings)
+SurfaceWork
+WorkOf(const MeshScanSettings & settings)
 {
-  return { settings.source.read.temporaryFolder,
-           "Cannot make surfaces of " + DescribeTriangles(mesh.triangles) + ": their arrays" };
+  return { settings.source, settings.surfaces, settings.finish, settings.colourBy };
 }
 
 void
@@ -487,21 +426,8 @@ CheckMesh(MeshEstimate & mesh, const MeshScanSettings & settings)
 {
   const LatticeSettings & lattice = settings.source.lattice;
   const bool isDenoised = lattice.denoising.kind != Denoising::Kind::None;
-  const std::uintmax_t allowed = AllowedBytes(settings);
-  CountSteps(StepsOf(settings), mesh);
-  if (mesh.bytes.afterwards > allowed && MayBeInTemporaryFiles(settings))
-  {
-    const TemporaryStore store = SurfaceStore(mesh, settings);
-    const ColourBytes colours =
-      settings.colourBy ? CountColourBytes(WithinMemory(*settings.colourBy, settings)) : ColourBytes();
-    mesh.bytes.afterwards += colours.others;
-    isDenoised ? void() : RequireRoom(store, mesh.bytes.afterwards);
-    if (FindObstacle(store, mesh.bytes.afterwards).empty())
-    {
-      PutIntoTemporaryFiles(mesh);
-      mesh.bytes.afterwards += colours.voxels;
-    }
-  }
+  const std::uintmax_t allowed = AllowedBytes(settings.source);
+  FitIntoMemory(mesh, WorkOf(settings));
   if (isDenoised)
   {
     return;
@@ -534,59 +460,25 @@ CheckMesh(MeshEstimate & mesh, const MeshScanSettings & settings)
   }
 }
 
-bool
-CheckLabels(LabelWork & work, const MeshScanSettings & settings)
-{
-  MeshEstimate walls;
-  walls.triangles = work.triangles;
-  CountSteps(
-    { !settings.finish.smoothing.IsNothing(), settings.finish.Simplifies(), settings.colourBy.has_value(), true },
-    walls);
-  work.bytes = std::max(work.bytes, walls.bytes.afterwards);
-  const std::uintmax_t limit = settings.source.lattice.maximumMemory;
-  if (work.bytes <= MemoryAllowance(limit) || work.isOfProbabilities || AreColouredByLabels(settings))
-  {
-    RequireMemory(work, limit);
-    return false;
-  }
-  if (settings.colourBy)
-  {
-    work.bytes += CountColourBytes(WithinMemory(*settings.colourBy, settings)).others; // throws for too large a volume
-  }
-  RequireRoom(LabelStore(settings), work.bytes);
-  return true;
-}
-
-TemporaryStore
-LabelStore(const MeshScanSettings & settings)
-{
-  return { settings.source.read.temporaryFolder, "Cannot make surfaces of labels: their arrays" };
-}
-
 std::vector<MadeFile>
 MeshScan(const MeshScanSettings & settings, const Events & events, std::optional<SourceVolume> volume)
 {
   CheckOutputs(CheckMeshScan(settings), settings.source, settings.surfaces, InputsOf(settings.colourBy));
   ScanSource source = settings.source;
   source.streams = true;
-  std::optional<BulkInTemporaryFiles> temporary;
+  SurfacesInFiles inFiles;
   source.checkMesh = [&](MeshEstimate & mesh) {
     CheckMesh(mesh, settings);
-    if (mesh.temporaryBytes > 0)
-    {
-      temporary.emplace(SurfaceStore(mesh, settings));
-      NoteTemporaryFiles("the surfaces", mesh.triangles, mesh.temporaryBytes, settings, events);
-    }
+    inFiles.Put(mesh, settings.source, events);
   };
   LoadedSource loaded = LoadSource(source, settings.surfaces, std::move(volume), events);
   CheckNumberOfSurfaces(loaded, settings);
   Report sourceReport = ReportSource(loaded, settings.source);
   SurfaceMaking making{ settings.source, settings.surfaces, settings.finish, SurfaceUse::Files, events };
   making.checkLabels = [&](LabelWork work) {
-    if (CheckLabels(work, settings))
+    if (FitIntoMemory(work, WorkOf(settings)))
     {
-      temporary.emplace(LabelStore(settings));
-      NoteTemporaryFiles("labels and their surfaces", work.triangles, work.bytes, settings, events);
+      inFiles.Put(work, settings.source, events);
     }
   };
   std::vector<MeshedSurface> surfaces = ExtractSource(making, loaded, StoresNormals(settings.mesh));
@@ -608,7 +500,7 @@ MeshScan(const MeshScanSettings & settings, const Events & events, std::optional
   FinishSurfaces(making, surfaces);
   if (settings.colourBy)
   {
-    const ColourBy by = temporary ? WithinMemory(*settings.colourBy, settings) : *settings.colourBy;
+    const ColourBy by = inFiles.IsUsed() ? WithinMemory(*settings.colourBy, settings.source) : *settings.colourBy;
     sourceReport["colours"] = ColourMeshes(by, frame, surfaces, events);
   }
 

@@ -294,7 +294,7 @@ RenderSheetOf(const RenderOptions & options, const CommandContext & context)
   }
   if (options.isDryRun)
   {
-    std::cout << PlanPage(settings, settings.page, context.console->MakeEvents());
+    std::cout << PlanRenderSheet(settings, context.console->MakeEvents());
     return {};
   }
   auto volume = FinishSource(options, context, settings.slices, settings.source);
@@ -392,7 +392,7 @@ RenderPageOf(const RenderOptions & options, const CommandContext & context)
   }
   if (options.isDryRun)
   {
-    std::cout << PlanPage(settings, settings.page, context.console->MakeEvents());
+    std::cout << PlanRenderPage(settings, context.console->MakeEvents());
     return {};
   }
   auto volume = FinishSource(options, context, settings.slices, settings.source);

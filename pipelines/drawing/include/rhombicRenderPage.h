@@ -42,6 +42,10 @@ RenderPage(const RenderPageSettings & settings,
            const Events & events,
            std::optional<SourceVolume> volume = std::nullopt);
 
+/** As PlanRenderScan(). */
+std::string
+PlanRenderPage(const RenderPageSettings & settings, const Events & events);
+
 } // namespace rhombic
 
 #endif

@@ -129,10 +129,6 @@ RenderScan(const RenderScanSettings & settings,
 std::string
 PlanRenderScan(const RenderScanSettings & settings, const Events & events);
 
-/** As PlanRenderScan(), of a page. */
-std::string
-PlanPage(const PictureSettings & settings, const std::filesystem::path & page, const Events & events);
-
 /** From a scan or surface files to a page. */
 struct RenderSheetSettings : PictureSettings
 {
@@ -163,6 +159,10 @@ std::vector<MadeFile>
 RenderSheet(const RenderSheetSettings & settings,
             const Events & events,
             std::optional<SourceVolume> volume = std::nullopt);
+
+/** As PlanRenderScan(). */
+std::string
+PlanRenderSheet(const RenderSheetSettings & settings, const Events & events);
 
 } // namespace rhombic
 

@@ -72,11 +72,11 @@ ToVector(const itk::TriangleSurface::PointType & point)
   return { point[0], point[1], point[2] };
 }
 
-std::vector<SeenPoint>
+itk::BulkVector<SeenPoint>
 SeePoints(const itk::TriangleSurface & surface, const Projection & rays)
 {
   const double depthOfCentre = Dot(rays.centre, rays.frame.look);
-  std::vector<SeenPoint> seen;
+  itk::BulkVector<SeenPoint> seen;
   seen.reserve(surface.GetNumberOfPoints());
   for (const auto & stored : surface.GetPoints())
   {
@@ -233,7 +233,7 @@ FindDepths(const SceneSurface & item, const std::vector<ClipPlane> & cuts, const
       return Dot(point, plane.normal) > Dot(plane.point, plane.normal);
     });
   };
-  const std::vector<SeenPoint> points = SeePoints(*item.surface, rays);
+  const itk::BulkVector<SeenPoint> points = SeePoints(*item.surface, rays);
   for (const auto & triangle : item.surface->GetTriangles())
   {
     MeetTriangle(

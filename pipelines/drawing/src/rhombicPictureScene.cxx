@@ -17,6 +17,7 @@
 #include "itkTriangleSurfaceShading.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -164,34 +165,36 @@ AreLeftAsTheyAre(const PictureSource & source)
          });
 }
 
-/** The scan of pictures, whose lattice may be made in slabs. */
-struct StreamedSource
+/** The scan of pictures, whose lattice may be made in slabs. \param keepsAll whether surfaces keep all triangles */
+ScanSource
+StreamedSource(const PictureSource & source, const SceneUse & use, bool keepsAll)
 {
-  ScanSource scan;
-  const SurfaceViewing * viewing; ///< null for surfaces that keep all triangles
-
-  StreamedSource(const PictureSource & source, const SurfaceViewing * viewingIfLeft)
-    : scan(source.scan)
-    , viewing(AreLeftAsTheyAre(source) ? viewingIfLeft : nullptr)
-  {
-    scan.streams = true;
-    scan.mostTriangles = viewing != nullptr ? 2.0 * static_cast<double>(viewing->mostPoints) : 0.0;
-    scan.checkMesh = [lattice = scan.lattice](const MeshEstimate & mesh) { CheckDrawnMesh(mesh, lattice); };
-  }
-};
+  ScanSource scan = source.scan;
+  scan.streams = true;
+  scan.mostTriangles = keepsAll ? 0.0 : 2.0 * static_cast<double>(use.viewing->mostPoints);
+  return scan;
+}
 
 PictureScene
 MakeSceneOfScan(const PictureSource & source,
                 std::optional<SourceVolume> volume,
-                bool keepsScan,
-                const std::vector<PlaneRequest> & onlySlices,
-                const SurfaceViewing * viewing,
+                const SceneUse & use,
                 const Events & events)
 {
-  const StreamedSource streamed(source, viewing);
-  LoadedSource loaded = LoadSource(streamed.scan, source.surfaces, std::move(volume), events);
+  const SurfaceWork work{ source.scan, source.surfaces, source.finish, use.colourBy };
+  const auto inFiles = std::make_shared<SurfacesInFiles>();
+  const bool keepsAll = !use.viewing || !AreLeftAsTheyAre(source);
+  SurfaceViewing viewing = use.viewing.value_or(SurfaceViewing());
+  ScanSource streamed = StreamedSource(source, use, keepsAll);
+  streamed.checkMesh = [&](MeshEstimate & mesh) {
+    FitDrawn(mesh, work, use.countDrawing);
+    inFiles->Put(mesh, source.scan, events);
+    viewing.maximumMemory = inFiles->IsUsed() ? std::numeric_limits<std::uintmax_t>::max() : viewing.maximumMemory;
+  };
+  LoadedSource loaded = LoadSource(streamed, source.surfaces, std::move(volume), events);
   PictureScene scene;
-  SlicePart part = FindSlicePart(onlySlices, source, loaded);
+  scene.inFiles = inFiles;
+  SlicePart part = FindSlicePart(use.onlySlices, source, loaded);
   scene.places = std::move(part.places);
   scene.report = ReportSource(loaded, source.scan);
   scene.report["surfaces"] = Report::array();
@@ -202,17 +205,27 @@ MakeSceneOfScan(const PictureSource & source,
   scene.examination = isLattice ? "Scan" : DescribeExamination(*scan, !loaded.scan);
   scene.frameOfReference = isLattice ? "" : ReadDicomExamination(*scan).frameOfReference;
   const std::optional<SliceBox> box = isLattice ? std::nullopt : std::optional(BoxOf(*scan));
-  if (keepsScan && loaded.scan)
+  if (use.keepsScan && loaded.scan)
   {
     scene.scan = std::move(loaded.scan);
     scene.unit = IsInHounsfieldUnits(*scene.scan) ? "HU" : ReadDicomExamination(*scene.scan).units;
   }
   loaded.scan.reset(); // frees memory for the surfaces
-  const SurfaceMaking making{ source.scan, source.surfaces, source.finish,   SurfaceUse::Pictures,
-                              events,      part.voxels,     streamed.viewing };
+  SurfaceMaking making{ source.scan,
+                        source.surfaces,
+                        source.finish,
+                        SurfaceUse::Pictures,
+                        events,
+                        part.voxels,
+                        keepsAll ? nullptr : &viewing };
+  making.checkLabels = [&](LabelWork labels) {
+    bool areInFiles = false;
+    FitDrawn(labels, work, use.countDrawing, areInFiles);
+    areInFiles ? inFiles->Put(labels, source.scan, events) : void();
+  };
   std::vector<MeshedSurface> surfaces = ExtractSource(making, loaded);
   std::optional<Scan> greys; // of a lattice volume, whose samples are no voxels: nothing is measured in them
-  if (isLattice && keepsScan)
+  if (isLattice && use.keepsScan)
   {
     greys.emplace().image = LatticeToScan(loaded.lattice, {}, events);
   }
@@ -238,6 +251,7 @@ MakeSceneOfFiles(const PictureSource & source, const Events & events)
   }
   const SurfaceMaking making{ source.scan, source.surfaces, source.finish, SurfaceUse::Pictures, events };
   PictureScene scene;
+  scene.inFiles = std::make_shared<SurfacesInFiles>();
   scene.examination = "Surfaces";
   scene.report["surfaces"] = Report::array();
   std::vector<SceneSurface> read;
@@ -299,17 +313,29 @@ BoxOfSurfaces(const std::vector<SceneSurface> & surfaces)
   return BoxOf(box.lowest, box.highest, { spacing, spacing, spacing });
 }
 
+std::uintmax_t
+CheckDrawing(const RenderSettings & render, bool isTranslucent, bool areFewer, bool hasLabels, DrawnTriangles triangles)
+{
+  constexpr double fewOfPixel = 3.0; // triangles that views need
+  if (areFewer)
+  {
+    triangles.least = 0.0;
+    triangles.likely = std::min(triangles.likely, fewOfPixel * render.width * render.height);
+  }
+  SurfaceRenderer::CheckMemory(render, isTranslucent, triangles.least);
+  RenderSettings unlimited = render;
+  unlimited.maximumMemory = std::numeric_limits<std::uintmax_t>::max();
+  return SurfaceRenderer::CheckMemory(unlimited, isTranslucent || hasLabels, triangles.likely);
+}
+
 PictureScene
 MakePictureScene(const PictureSource & source,
                  std::optional<SourceVolume> volume,
-                 bool keepsScan,
-                 const Events & events,
-                 const std::vector<PlaneRequest> & onlySlices,
-                 const SurfaceViewing * viewing)
+                 const SceneUse & use,
+                 const Events & events)
 {
-  PictureScene scene = source.surfaceFiles.empty()
-                         ? MakeSceneOfScan(source, std::move(volume), keepsScan, onlySlices, viewing, events)
-                         : MakeSceneOfFiles(source, events);
+  PictureScene scene = source.surfaceFiles.empty() ? MakeSceneOfScan(source, std::move(volume), use, events)
+                                                   : MakeSceneOfFiles(source, events);
   std::vector<std::string> names;
   for (SceneSurface & surface : scene.surfaces)
   {
@@ -326,19 +352,30 @@ MakePictureScene(const PictureSource & source,
 std::string
 PlanPictureScene(const PictureSource & source,
                  const std::filesystem::path & output,
-                 const SurfaceViewing * viewing,
+                 const SceneUse & use,
                  const Events & events)
 {
   if (!source.surfaceFiles.empty())
   {
     throw Failure(FailureKind::Usage, "--dry-run plans what is made of a scan, not of surface files; leave it out.");
   }
-  return PlanPictures(StreamedSource(source, viewing).scan, source.surfaces, output, events);
+  const ScanSource streamed = StreamedSource(source, use, !use.viewing || !AreLeftAsTheyAre(source));
+  const auto findPart = [&](const LoadedSource & loaded) {
+    return FindSlicePart(use.onlySlices, source, loaded).voxels;
+  };
+  return PlanPictures(
+    { streamed, source.surfaces, source.finish, use.colourBy }, use.countDrawing, findPart, output, events);
 }
 
 void
-ColourSurfaces(const ColourBy & by, PictureScene & scene, const Events & events)
+ColourSurfaces(const PictureSettings & settings, PictureScene & scene, const Events & events)
 {
+  if (!settings.colourBy)
+  {
+    return;
+  }
+  const bool isInFiles = scene.inFiles->IsUsed();
+  const ColourBy by = isInFiles ? WithinMemory(*settings.colourBy, settings.source.scan) : *settings.colourBy;
   SurfaceColours colours = ColourSurfaces(by, scene.frameOfReference, scene.surfaces, events);
   for (SceneSurface & surface : scene.surfaces)
   {

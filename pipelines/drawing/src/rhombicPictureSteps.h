@@ -8,10 +8,12 @@
 #include "rhombicLatticeToSurfaces.h"
 #include "rhombicRenderPage.h"
 #include "rhombicSheet.h"
+#include "rhombicSurfaceMemory.h"
 #include "rhombicSurfaceRenderer.h"
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,35 +37,51 @@ struct PictureScene
   std::string thresholds;       ///< "bone from 250.5, skin from -300.5"; empty without isosurfaces
   std::string unit;             ///< of the scan's values: "HU", "Bq/ml"; empty if unknown
   std::string frameOfReference; ///< see DicomExamination
-  std::vector<std::string> facts;         ///< "scan: DICOM CT, 512 x 512 x 138, ...", and so on
-  std::optional<ColourScale> scale;       ///< of the surfaces' points, if they are coloured by numbers
-  std::vector<SceneSurface> drawnAsLines; ///< other surfaces, of which pages show the outlines alone
-  std::vector<std::string> headings;      ///< of LegendRow::figures on pages
-  bool isForViews = false;                ///< whether a surface has fewer triangles already, see SurfaceViewing
+  std::vector<std::string> facts;                 ///< "scan: DICOM CT, 512 x 512 x 138, ...", and so on
+  std::optional<ColourScale> scale;               ///< of the surfaces' points, if they are coloured by numbers
+  std::vector<SceneSurface> drawnAsLines;         ///< other surfaces, of which pages show the outlines alone
+  std::vector<std::string> headings;              ///< of LegendRow::figures on pages
+  bool isForViews = false;                        ///< whether a surface has fewer triangles already, see SurfaceViewing
+  std::shared_ptr<const SurfacesInFiles> inFiles; ///< where arrays are, also those of drawing; not null
   Report report;
 
   /** Of planes, by PlaneRequest::place, if they are not found from the surfaces. */
   std::map<std::string, Vector3> places;
 };
 
-/** Reads a source, and makes its surfaces, in slabs where the lattice does not fit. Throws Failure.
- * \param volume the scan's volume, if the caller has read the scan already
- * \param keepsScan whether the scan is needed after that
- * \param onlySlices if not empty, the scene is for these alone, and surfaces of labels may be missing elsewhere
- * \param viewing null for a scene whose surfaces are not only looked at */
+/** CountDrawing of pictures as large as the settings say. \param areFewer whether surfaces are drawn in as few
+ * triangles as their views need \param hasLabels which may become translucent */
+std::uintmax_t
+CheckDrawing(const RenderSettings & render,
+             bool isTranslucent,
+             bool areFewer,
+             bool hasLabels,
+             DrawnTriangles triangles);
+
+/** What a scene is for. */
+struct SceneUse
+{
+  CountDrawing countDrawing;
+  std::optional<ColourBy> colourBy = std::nullopt;
+  bool keepsScan = false;                 ///< whether the scan is needed when the surfaces are made
+  std::vector<PlaneRequest> onlySlices{}; ///< if not empty, the scene is for these alone, and surfaces of labels may be
+                                          ///< missing elsewhere
+  std::optional<SurfaceViewing> viewing{}; ///< of surfaces that are only looked at
+};
+
+/** Reads a source, and makes its surfaces: in slabs where the lattice does not fit, and in temporary files where they
+ * do not. Throws Failure. \param volume the scan's volume, if the caller has read the scan already */
 PictureScene
 MakePictureScene(const PictureSource & source,
                  std::optional<SourceVolume> volume,
-                 bool keepsScan,
-                 const Events & events,
-                 const std::vector<PlaneRequest> & onlySlices = {},
-                 const SurfaceViewing * viewing = nullptr);
+                 const SceneUse & use,
+                 const Events & events);
 
 /** Plans the work of MakePictureScene(). */
 std::string
 PlanPictureScene(const PictureSource & source,
                  const std::filesystem::path & output,
-                 const SurfaceViewing * viewing,
+                 const SceneUse & use,
                  const Events & events);
 
 /** The box around surfaces, with a grid for slices where there is no scan. */
@@ -161,9 +179,9 @@ ShowFocus(const std::vector<ClipPlane> & cuts,
 
 /** Sets the colours of the points of all surfaces, the scene's scale and its report; see the function of the same name
  * in rhombicColourBy.h. An only surface becomes opaque; a note warns of others that are translucent, whose colours are
- * mixed. */
+ * mixed. Does nothing where surfaces keep their colours. */
 void
-ColourSurfaces(const ColourBy & by, PictureScene & scene, const Events & events);
+ColourSurfaces(const PictureSettings & settings, PictureScene & scene, const Events & events);
 
 /** Adds slices that stand in the scene. */
 void

@@ -32,6 +32,16 @@ SettingsOf(const RenderPageSettings & settings, int side)
   return render;
 }
 
+SceneUse
+UseOf(const RenderPageSettings & settings)
+{
+  const auto countDrawing = [&settings](const DrawnTriangles & triangles) {
+    const bool hasLabels = settings.source.surfaces.labels.has_value();
+    return CheckDrawing(SettingsOf(settings, SideOfView), false, true, hasLabels, triangles);
+  };
+  return { countDrawing, settings.colourBy, settings.hasSlices };
+}
+
 /** The letters and the scale bar of a still picture. */
 Annotations
 AnnotationsOf(const PictureScene & scene)
@@ -294,6 +304,12 @@ StageScenePage(const RenderPageSettings & settings,
   StageFilesBeside({ first }, settings, std::nullopt, {}, 0.0, events, outputs);
 }
 
+std::string
+PlanRenderPage(const RenderPageSettings & settings, const Events & events)
+{
+  return PlanPictureScene(settings.source, settings.page, UseOf(settings), events);
+}
+
 std::vector<MadeFile>
 RenderPage(const RenderPageSettings & settings, const Events & events, std::optional<SourceVolume> volume)
 {
@@ -302,12 +318,9 @@ RenderPage(const RenderPageSettings & settings, const Events & events, std::opti
   renderer.CheckSettings(SettingsOf(settings, SideOfView));
   PictureSource source = settings.source;
   NeedPlaces(PlanesOf(settings), source.surfaces.rules);
-  PictureScene scene = MakePictureScene(source, std::move(volume), settings.hasSlices, events);
+  PictureScene scene = MakePictureScene(source, std::move(volume), UseOf(settings), events);
   OpenEnclosing(source.surfaces, {}, scene, events);
-  if (settings.colourBy)
-  {
-    ColourSurfaces(*settings.colourBy, scene, events);
-  }
+  ColourSurfaces(settings, scene, events);
   OutputFiles outputs{ settings.provenance };
   StageScenePage(settings, std::move(scene), renderer, events, outputs);
   outputs.staged.Commit();

@@ -646,6 +646,59 @@ ViewingOf(const RenderScanSettings & settings)
   return viewing;
 }
 
+bool
+DrawsViews(const RenderScanSettings & settings)
+{
+  return settings.turntable > 0 ||
+         (settings.onlyPicture == 0 ? !settings.views.empty() : settings.onlyPicture <= settings.views.size());
+}
+
+/** Throws Failure(Memory) for pictures that are too many, or too large. */
+void
+RequireMemoryForPictures(const RenderScanSettings & settings)
+{
+  const auto sideOf = [](int side) { return static_cast<std::uintmax_t>(side > 0 ? side : LongerSide); };
+  RequireMemory(sideOf(settings.render.width) * sideOf(settings.render.height) * 4 *
+                  std::max(settings.turntable, PlanPictures(settings).size()),
+                settings.source.scan.lattice.maximumMemory,
+                "All pictures together",
+                "choose a smaller --size, or fewer of them");
+}
+
+/** Whether isosurfaces are translucent, or planes and cut faces are drawn, as they are. The renderer checks labels,
+ * which are not known yet. */
+bool
+HasTranslucent(const RenderScanSettings & settings)
+{
+  const auto & requests = settings.source.surfaces.requests;
+  return !settings.planes.empty() || !settings.cuts.empty() ||
+         std::any_of(
+           requests.begin(), requests.end(), [](const SurfaceRequest & request) { return request.opacity < 1.0; });
+}
+
+SceneUse
+UseOf(const RenderScanSettings & settings)
+{
+  SceneUse use;
+  use.colourBy = settings.colourBy;
+  use.keepsScan = !settings.cuts.empty() || !settings.planes.empty() || !settings.slices.empty();
+  use.viewing = ViewingOf(settings);
+  if (DrawsViews(settings))
+  {
+    use.countDrawing = [&settings](const DrawnTriangles & triangles) {
+      RenderSettings render = settings.render;
+      render.maximumMemory = settings.source.scan.lattice.maximumMemory;
+      const bool hasLabels = settings.source.surfaces.labels.has_value();
+      return CheckDrawing(render, HasTranslucent(settings), settings.turntable > 0, hasLabels, triangles);
+    };
+  }
+  else if (settings.slice.lightbox == 0)
+  {
+    use.onlySlices = settings.slices;
+  }
+  return use;
+}
+
 } // namespace
 
 std::vector<View>
@@ -697,14 +750,8 @@ std::string
 PlanRenderScan(const RenderScanSettings & settings, const Events & events)
 {
   CheckOutputs(CheckRenderScan(settings), settings.source.scan, settings.source.surfaces, InputsOf(settings.colourBy));
-  const std::optional<SurfaceViewing> viewing = ViewingOf(settings);
-  return PlanPictureScene(settings.source, settings.picture, viewing ? &*viewing : nullptr, events);
-}
-
-std::string
-PlanPage(const PictureSettings & settings, const fs::path & page, const Events & events)
-{
-  return PlanPictureScene(settings.source, page, nullptr, events);
+  RequireMemoryForPictures(settings);
+  return PlanPictureScene(settings.source, settings.picture, UseOf(settings), events);
 }
 
 std::vector<MadeFile>
@@ -718,29 +765,14 @@ RenderScan(const RenderScanSettings & given, const Events & events, std::optiona
   const std::optional<DicomStudy> study = OpenStudy(settings.source, dicomPaths);
   const RenderSettings & render = settings.render;
   const bool drawsAll = settings.turntable > 0 || settings.onlyPicture == 0;
-  const bool drawsViews =
-    drawsAll ? settings.turntable > 0 || !settings.views.empty() : settings.onlyPicture <= settings.views.size();
+  const bool drawsViews = DrawsViews(settings);
   std::optional<SurfaceRenderer> renderer;
   if (drawsViews)
   {
-    const auto & requests = settings.source.surfaces.requests; // the renderer checks labels, which are not known yet
-    const auto isTranslucent = [](const SurfaceRequest & request) { return request.opacity < 1.0; };
-    renderer.emplace().CheckSettings(render, std::any_of(requests.begin(), requests.end(), isTranslucent));
+    renderer.emplace().CheckSettings(render, HasTranslucent(settings));
   }
-  const auto sideOf = [](int side) { return static_cast<std::uintmax_t>(side > 0 ? side : LongerSide); };
-  RequireMemory(sideOf(render.width) * sideOf(render.height) * 4 * std::max(settings.turntable, paths.size()),
-                render.maximumMemory,
-                "All pictures together",
-                "choose a smaller --size, or fewer of them");
-  const bool needsScan = !settings.cuts.empty() || !settings.planes.empty() || !settings.slices.empty();
-  const bool drawsSlicesAlone = !drawsViews && settings.slice.lightbox == 0;
-  const std::optional<SurfaceViewing> viewing = ViewingOf(settings);
-  PictureScene scene = MakePictureScene(SourceOf(settings),
-                                        std::move(volume),
-                                        needsScan,
-                                        events,
-                                        drawsSlicesAlone ? settings.slices : std::vector<PlaneRequest>(),
-                                        viewing ? &*viewing : nullptr);
+  RequireMemoryForPictures(settings);
+  PictureScene scene = MakePictureScene(SourceOf(settings), std::move(volume), UseOf(settings), events);
   events.Progress("rendering", 0.0);
   const std::vector<ClipPlane> cuts = ClipPlanesOf(settings, scene);
   std::vector<Picture> pictures;
@@ -749,11 +781,8 @@ RenderScan(const RenderScanSettings & given, const Events & events, std::optiona
     OpenEnclosing(settings.source.surfaces, cuts, scene, events);
     PictureScene seen = scene;
     ShowFocus(cuts, settings, seen, events);
-    if (settings.colourBy)
-    {
-      ColourSurfaces(*settings.colourBy, seen, events);
-      settings.render.ambientOcclusion = false; // colours are seen as they are
-    }
+    ColourSurfaces(settings, seen, events);
+    settings.render.ambientOcclusion = settings.render.ambientOcclusion && !seen.scale; // colours are seen as they are
     pictures = DrawViews(settings, seen, cuts, *renderer);
     scene.report = std::move(seen.report);
   }

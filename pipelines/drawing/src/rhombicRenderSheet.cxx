@@ -213,13 +213,14 @@ StageSheet(const Sheet & sheet,
 }
 
 /** Throws Failure(Memory) where there is too little for pages of the resolution, or for views in their largest places.
- */
-void
-CheckMemory(const RenderSheetSettings & settings, std::size_t slices, const SurfaceRenderer & renderer)
+ * Returns what the largest view likely takes. */
+std::uintmax_t
+CheckMemory(const RenderSheetSettings & settings, const DrawnTriangles & triangles = {})
 {
-  const SheetPlaces places = PlacesOn(EmptySheet(settings, slices));
+  const SheetPlaces places = PlacesOn(EmptySheet(settings, PlanesOf(settings).size()));
   RenderSettings render;
   render.maximumMemory = settings.source.scan.lattice.maximumMemory;
+  std::uintmax_t most = 0;
   constexpr std::uintmax_t bytesPerPixel = 12; // drawing, picture, and its rows as they are written
   RequireMemory(bytesPerPixel * static_cast<std::uintmax_t>(places.width) * static_cast<std::uintmax_t>(places.height),
                 render.maximumMemory,
@@ -229,8 +230,18 @@ CheckMemory(const RenderSheetSettings & settings, std::size_t slices, const Surf
   {
     render.width = static_cast<int>(std::lround(place.width));
     render.height = static_cast<int>(std::lround(place.height));
-    renderer.CheckSettings(render);
+    const bool hasLabels = settings.source.surfaces.labels.has_value();
+    most = std::max(most, CheckDrawing(render, false, true, hasLabels, triangles));
   }
+  return most;
+}
+
+SceneUse
+UseOf(const RenderSheetSettings & settings)
+{
+  return { [&settings](const DrawnTriangles & triangles) { return CheckMemory(settings, triangles); },
+           settings.colourBy,
+           true };
 }
 
 } // namespace
@@ -277,6 +288,12 @@ StageScenePages(const RenderSheetSettings & settings,
   return pages;
 }
 
+std::string
+PlanRenderSheet(const RenderSheetSettings & settings, const Events & events)
+{
+  return PlanPictureScene(settings.source, settings.page, UseOf(settings), events);
+}
+
 std::vector<MadeFile>
 RenderSheet(const RenderSheetSettings & given, const Events & events, std::optional<SourceVolume> volume)
 {
@@ -286,19 +303,16 @@ RenderSheet(const RenderSheetSettings & given, const Events & events, std::optio
   CheckOutputs(planned, settings.source.scan, settings.source.surfaces, InputsOf(settings.colourBy));
   SurfaceRenderer renderer;
   const std::vector<PlaneRequest> planes = PlanesOf(settings);
-  CheckMemory(settings, planes.size(), renderer);
+  CheckMemory(settings);
   PictureSource source = settings.source;
   NeedPlaces(planes, source.surfaces.rules);
-  PictureScene scene = MakePictureScene(source, std::move(volume), true, events);
+  PictureScene scene = MakePictureScene(source, std::move(volume), UseOf(settings), events);
   OpenEnclosing(source.surfaces, {}, scene, events);
   if (const std::vector<View> faces = ViewsOfFaces(scene.surfaces); settings.choosesViews && !faces.empty())
   {
     settings.views = faces;
   }
-  if (settings.colourBy)
-  {
-    ColourSurfaces(*settings.colourBy, scene, events);
-  }
+  ColourSurfaces(settings, scene, events);
   OutputFiles outputs{ settings.provenance };
   const std::vector<Picture> pages =
     StageScenePages(settings, scene, planes, study.has_value(), renderer, events, outputs);

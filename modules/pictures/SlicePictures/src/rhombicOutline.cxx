@@ -33,11 +33,11 @@ DepthOf(const Surface::PointType & point, const Projection & plane)
 }
 
 /** For each point of the surface 1 if it is in the plane or behind it, otherwise 0. */
-std::vector<std::uint8_t>
+itk::BulkVector<std::uint8_t>
 FindPointsBehind(const Surface & surface, const Projection & plane)
 {
   const auto & points = surface.GetPoints();
-  std::vector<std::uint8_t> isBehind(points.size());
+  itk::BulkVector<std::uint8_t> isBehind(points.size());
   constexpr std::size_t blockSize = std::size_t(1) << 16;
   ForEachInBlocks(
     points.size(), blockSize, [&](std::size_t n) { isBehind[n] = DepthOf(points[n], plane) >= 0.0 ? 1 : 0; });
@@ -46,7 +46,7 @@ FindPointsBehind(const Surface & surface, const Projection & plane)
 
 /** The line of a triangle that has points on both sides. */
 CutLine
-CutTriangle(const Surface::TriangleType & triangle, const std::vector<std::uint8_t> & isBehind)
+CutTriangle(const Surface::TriangleType & triangle, const itk::BulkVector<std::uint8_t> & isBehind)
 {
   CutLine line{};
   for (std::size_t corner = 0; corner < 3; ++corner)
@@ -64,7 +64,7 @@ CutTriangle(const Surface::TriangleType & triangle, const std::vector<std::uint8
 
 /** In the order of the triangles. */
 std::vector<CutLine>
-CutTriangles(const Surface & surface, const std::vector<std::uint8_t> & isBehind)
+CutTriangles(const Surface & surface, const itk::BulkVector<std::uint8_t> & isBehind)
 {
   const auto & triangles = surface.GetTriangles();
   constexpr std::size_t blockSize = std::size_t(1) << 16;

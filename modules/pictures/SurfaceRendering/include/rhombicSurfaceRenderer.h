@@ -62,6 +62,11 @@ public:
   void
   CheckSettings(const RenderSettings & settings, bool isTranslucent = false) const;
 
+  /** Throws Failure(Memory) where Render() would throw it for closed surfaces of so many triangles, else returns the
+   * bytes that it needs. Thread safe. */
+  static std::uintmax_t
+  CheckMemory(const RenderSettings & settings, bool isTranslucent, double triangles);
+
   /** The largest number of bytes that Render() needs at a time with a software renderer for one view, including the
    * picture, excluding the scene. When it returns, the pictures and about 100 MiB of libraries stay in memory. Thread
    * safe. */

@@ -403,6 +403,9 @@ ActorBuffers::SetUniforms(const Drawing & drawing, const FragmentLists * lists, 
 void
 ActorBuffers::DrawCells(const Drawing & drawing, const PicturePart & part)
 {
+  // Mesa's software keeps triangles in memory until a thread draws them, some 60 bytes for each: on a busy machine
+  // those of a whole scene.
+  constexpr GLsizei mostWaiting = 3 << 19;
   // The nearest first, so that fewer samples are computed that others hide later.
   std::array<std::vector<const TriangleCell *>, 64> slabs;
   for (const TriangleCell & cell : drawing.buffers->cells)
@@ -421,16 +424,31 @@ ActorBuffers::DrawCells(const Drawing & drawing, const PicturePart & part)
   {
     for (const TriangleCell * cell : slab)
     {
+      if (m_Waiting > mostWaiting)
+      {
+        DrawRanges(firsts, counts);
+        glFinish();
+        m_Waiting = 0;
+      }
       if (counts.empty() || cell->firstTriangle != end)
       {
         counts.push_back(0);
         firsts.push_back(reinterpret_cast<const void *>(12 * cell->firstTriangle)); // OpenGL takes offsets as pointers
       }
       counts.back() += static_cast<GLsizei>(3 * cell->numberOfTriangles);
+      m_Waiting += static_cast<GLsizei>(3 * cell->numberOfTriangles);
       end = cell->firstTriangle + cell->numberOfTriangles;
     }
   }
+  DrawRanges(firsts, counts);
+}
+
+void
+ActorBuffers::DrawRanges(std::vector<const void *> & firsts, std::vector<int> & counts)
+{
   glMultiDrawElements(GL_TRIANGLES, counts.data(), GL_UNSIGNED_INT, firsts.data(), static_cast<GLsizei>(counts.size()));
+  firsts.clear();
+  counts.clear();
 }
 
 void

@@ -140,13 +140,16 @@ private:
   Draw(const Drawing & drawing, const FragmentLists * lists, const PicturePart & part);
   void
   SetUniforms(const Drawing & drawing, const FragmentLists * lists, vtkShaderProgram * program) const;
-  static void
+  void
   DrawCells(const Drawing & drawing, const PicturePart & part);
+  void
+  DrawRanges(std::vector<const void *> & firsts, std::vector<int> & counts);
 
   std::map<vtkActor *, Buffers> m_Buffers;
   std::vector<Drawing> m_Drawings;
   std::map<std::tuple<bool, bool, bool, bool, SurfaceLight, int>, vtkSmartPointer<vtkShaderProgram>> m_Programs;
   std::string m_LightsOfPrograms;
+  int m_Waiting = 0; ///< indices of triangles that may not be drawn yet
   ActorLook m_Look;
   vtkOpenGLRenderWindow * m_Window = nullptr;
 };

@@ -272,13 +272,20 @@ BackgroundOf(const RenderSettings & settings)
 }
 
 std::uintmax_t
+MemoryToHold(std::uintmax_t points, std::uintmax_t triangles)
+{
+  return points * VertexBytes + triangles * TriangleBytes + std::min(triangles * BinnedTriangleBytes, MostBinnedBytes);
+}
+
+std::uintmax_t
 MemoryToHoldScene(const Scene & scene)
 {
   std::uintmax_t bytes = 0;
+  std::uintmax_t points = 0;
   std::uintmax_t triangles = 0;
   for (const SceneSurface & item : scene.surfaces)
   {
-    bytes += item.surface->GetNumberOfPoints() * VertexBytes + item.surface->GetNumberOfTriangles() * TriangleBytes;
+    points += item.surface->GetNumberOfPoints();
     triangles += item.surface->GetNumberOfTriangles();
   }
   for (const ScenePlane & plane : scene.planes)
@@ -286,7 +293,7 @@ MemoryToHoldScene(const Scene & scene)
     bytes += static_cast<std::uintmax_t>(plane.picture.width) * static_cast<std::uintmax_t>(plane.picture.height) *
              PlanePixelBytes;
   }
-  return bytes + std::min(triangles * BinnedTriangleBytes, MostBinnedBytes);
+  return bytes + MemoryToHold(points, triangles);
 }
 
 std::uintmax_t

@@ -27,8 +27,11 @@ DrawableScene(const Scene & scene);
 bool
 IsTranslucent(const Scene & scene);
 
-/** Bytes that OpenGL needs for the triangles and planes of a scene while it draws them, without those of the scene
- * itself. */
+/** Bytes that OpenGL needs for points and triangles while it draws them, without those of the surfaces themselves. */
+std::uintmax_t
+MemoryToHold(std::uintmax_t points, std::uintmax_t triangles);
+
+/** The same for the triangles and planes of a scene while it draws them, without those of the scene itself. */
 std::uintmax_t
 MemoryToHoldScene(const Scene & scene);
 

@@ -290,6 +290,15 @@ SurfaceRenderer::CheckSettings(const RenderSettings & settings, bool isTransluce
 }
 
 std::uintmax_t
+SurfaceRenderer::CheckMemory(const RenderSettings & settings, bool isTranslucent, double triangles)
+{
+  const auto count = static_cast<std::uintmax_t>(triangles);
+  const std::uintmax_t held = MemoryToHold(count / 2, count);
+  RequireMemoryToDraw(settings, isTranslucent, held);
+  return MemoryToDraw(settings, isTranslucent, held);
+}
+
+std::uintmax_t
 SurfaceRenderer::EstimateMemory(const Scene & scene, const RenderSettings & settings)
 {
   const Scene drawable = DrawableScene(scene);

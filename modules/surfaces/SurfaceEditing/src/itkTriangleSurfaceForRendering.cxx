@@ -72,7 +72,7 @@ SampleAt(const TriangleSurface & surface, const TrianglesOfPoints & fans, SizeVa
 }
 
 NormalSample
-SumWithNeighbours(const std::vector<NormalSample> & samples, const TrianglesOfPoints & fans, SizeValueType point)
+SumWithNeighbours(const BulkVector<NormalSample> & samples, const TrianglesOfPoints & fans, SizeValueType point)
 {
   NormalSample sum = samples[point];
   fans.VisitNeighbours(point, [&](PointId next, PointId) {
@@ -124,8 +124,8 @@ SmoothTriangleSurfaceNormals(TriangleSurface & surface)
     return;
   }
   const TrianglesOfPoints fans(surface);
-  std::vector<NormalSample> samples(surface.GetNumberOfPoints());
-  std::vector<NormalSample> next(samples.size());
+  BulkVector<NormalSample> samples(surface.GetNumberOfPoints());
+  BulkVector<NormalSample> next(samples.size());
   rhombic::ForEachInBlocks(
     samples.size(), NormalsBlock, [&](SizeValueType point) { samples[point] = SampleAt(surface, fans, point); });
   for (unsigned int pass = 0; pass < Passes; ++pass)
@@ -194,7 +194,7 @@ SimplifySheetForRendering(const TriangleSurface::PointsContainer & points,
     last = std::max(last, *highest);
   }
   constexpr PointId none = std::numeric_limits<PointId>::max();
-  std::vector<PointId> numbers(last - first + 1, none); // of the sheet's points, ascending
+  BulkVector<PointId> numbers(last - first + 1, none); // of the sheet's points, ascending
   for (const auto & triangle : triangles)
   {
     for (const PointId point : triangle)
@@ -202,7 +202,7 @@ SimplifySheetForRendering(const TriangleSurface::PointsContainer & points,
       numbers[point - first] = 0;
     }
   }
-  std::vector<PointId> ids;
+  BulkVector<PointId> ids;
   TriangleSurface::PointsContainer places; // from the first, which keeps digits
   const PositionType origin = ToPosition(points[first]);
   for (PointId & number : numbers)
@@ -214,7 +214,7 @@ SimplifySheetForRendering(const TriangleSurface::PointsContainer & points,
       places.push_back(ToPoint(Subtract(ToPosition(points[ids.back()]), origin)));
     }
   }
-  std::vector<PointId> corners;
+  BulkVector<PointId> corners;
   corners.reserve(3 * triangles.size());
   for (const auto & triangle : triangles)
   {

@@ -25,11 +25,11 @@ struct SharedWall
 };
 
 /** Whether triangles of several walls meet at each point. */
-std::vector<std::uint8_t>
+itk::BulkVector<std::uint8_t>
 FindCurves(const JoinedSurfaces & joined)
 {
-  std::vector<Sides> sidesOfPoint(joined.surface->GetNumberOfPoints()); // of the point's last triangle
-  std::vector<std::uint8_t> isOnCurve(joined.surface->GetNumberOfPoints());
+  itk::BulkVector<Sides> sidesOfPoint(joined.surface->GetNumberOfPoints(), Sides{}); // of the point's last triangle
+  itk::BulkVector<std::uint8_t> isOnCurve(joined.surface->GetNumberOfPoints(), 0);
   for (std::size_t n = 0; n < joined.sides.size(); ++n)
   {
     for (const std::uint32_t point : joined.surface->GetTriangles()[n])
@@ -45,7 +45,7 @@ FindCurves(const JoinedSurfaces & joined)
 std::vector<SharedWall>
 WallsOf(const JoinedSurfaces & joined)
 {
-  const std::vector<std::uint8_t> isOnCurve = FindCurves(joined);
+  const itk::BulkVector<std::uint8_t> isOnCurve = FindCurves(joined);
   std::map<std::pair<Sides, bool>, Triangles> triangles;
   for (std::size_t n = 0; n < joined.sides.size(); ++n)
   {
@@ -113,7 +113,7 @@ FromWalls(const SceneSurface & surface,
     numbers[joinedPoints[point]] = point;
   }
   Triangles triangles;
-  std::vector<std::uint8_t> isUsed(joinedPoints.size());
+  itk::BulkVector<std::uint8_t> isUsed(joinedPoints.size(), 0);
   for (const SharedWall & wall : walls)
   {
     const bool isTurned = wall.sides[1] == number;
