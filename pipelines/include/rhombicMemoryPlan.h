@@ -19,7 +19,8 @@ namespace rhombic
  * and its slabs, surfaces and files, memory and time. Triangles and time are estimates, which noise and other programs
  * change. All throw Failure as the work itself would before it begins, Memory for what does not fit. */
 
-/** MeshScan(). Surfaces are estimated for isovalues, and Otsu's threshold for those slices; not for labels. */
+/** MeshScan(). Surfaces are estimated for isovalues, and Otsu's threshold for those slices, and those of labels, whose
+ * map is read. */
 std::string
 PlanMeshScan(const MeshScanSettings & settings, const Events & events);
 

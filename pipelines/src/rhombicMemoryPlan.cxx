@@ -234,16 +234,46 @@ FindRequests(const std::vector<SurfaceRequest> & requests, const ScanImage & sli
 }
 
 std::string
+DescribeTemporary(std::uintmax_t bytes, const ScanSource & source)
+{
+  return bytes == 0 ? ""
+                    : "; while they are made, " + DescribeBytes(bytes) + " in temporary files in " +
+                        TemporaryStore{ source.read.temporaryFolder, {} }.FindFolder().string();
+}
+
+std::string
 DescribeSurfaces(const SurfacePlanning & planning, double triangles, std::uintmax_t temporaryBytes)
 {
   const double bytes = triangles * BytesOfTriangle(planning.output);
   return "surfaces      " + DescribeTriangles(triangles) +
          (bytes > 0.0 ? ", " + DescribeBytes(static_cast<std::uintmax_t>(bytes)) + " in " + planning.output.string()
                       : "") +
-         (temporaryBytes > 0 ? "; while they are made, " + DescribeBytes(temporaryBytes) + " in temporary files in " +
-                                 TemporaryStore{ planning.source.read.temporaryFolder, {} }.FindFolder().string()
-                             : "") +
-         '\n';
+         DescribeTemporary(temporaryBytes, planning.source) + '\n';
+}
+
+/** What labels take, in bytes. */
+struct LabelPlan
+{
+  LabelWork work;
+  std::uintmax_t inMemory = 0;
+  std::uintmax_t inFiles = 0;
+  std::uintmax_t drawing = 0;
+};
+
+/** \param loaded has the labels */
+LabelPlan
+PlanWork(const SurfacePlanning & planning, const LoadedSource & loaded)
+{
+  LabelSurfaceSettings settings;
+  settings.labels = planning.surfaces.labels->labels;
+  settings.density = planning.source.lattice.density;
+  settings.part = planning.findPart ? planning.findPart(loaded) : std::nullopt;
+  LabelPlan plan;
+  plan.work = EstimateLabelWork(*loaded.labels, settings);
+  bool isInFiles = false;
+  plan.drawing = planning.checkLabels(plan.work, isInFiles);
+  (isInFiles ? plan.inFiles : plan.inMemory) = plan.work.bytes;
+  return plan;
 }
 
 /** The plan of surfaces of a label map, of which the voxels are read, unless they have to be put into a temporary file.
@@ -253,27 +283,31 @@ PlanLabels(const SurfacePlanning & planning, const UnreadSource & unread)
 {
   const ScanSource & source = planning.source;
   std::string text = "voxels        " + DescribePlace(unread, source.read) + '\n';
-  std::uintmax_t bytes = unread.CountInMemory();
-  std::uintmax_t drawing = 0;
+  LabelPlan plan;
   if (unread.place == VoxelPlace::TemporaryFile)
   {
     text += "surfaces      not known before the voxels are read\n";
   }
   else
   {
-    const LoadedSource loaded = LoadSource(source, planning.surfaces, std::nullopt, {});
-    LabelSurfaceSettings settings;
-    settings.labels = planning.surfaces.labels->labels;
-    settings.density = source.lattice.density;
-    settings.part = planning.findPart ? planning.findPart(loaded) : std::nullopt;
-    LabelWork work = EstimateLabelWork(*loaded.labels, settings);
-    bool isInFiles = false;
-    drawing = planning.checkLabels(work, isInFiles);
-    text += DescribeSurfaces(planning, work.triangles, isInFiles ? work.bytes : 0);
-    bytes += isInFiles ? 0 : work.bytes;
+    plan = PlanWork(planning, LoadSource(source, planning.surfaces, std::nullopt, {}));
+    text += DescribeSurfaces(planning, plan.work.triangles, plan.inFiles);
   }
-  return text + "memory        " + DescribeMemory(bytes, source.read.maximumMemory) + DescribeDrawing(drawing) + '\n' +
-         DescribeUnwritten(planning.output);
+  return text + "memory        " + DescribeMemory(unread.CountInMemory() + plan.inMemory, source.read.maximumMemory) +
+         DescribeDrawing(plan.drawing) + '\n' + DescribeUnwritten(planning.output);
+}
+
+/** The plan of labels beside a scan, whose map is read. */
+LabelPlan
+PlanLabelsBeside(const SurfacePlanning & planning, const UnreadSource & unread)
+{
+  const ScanSource & source = planning.source;
+  LoadedSource loaded;
+  loaded.scan = unread.file.scan;
+  loaded.requests = planning.surfaces.requests;
+  loaded.labels = ReadLabelMap(planning.surfaces.labels->source, source.read, unread.file.scan, source.path);
+  ApplySceneRules(planning.surfaces.rules, loaded.requests, &*loaded.labels);
+  return loaded.labels->labels.empty() ? LabelPlan() : PlanWork(planning, loaded);
 }
 
 /** The plan of surfaces in a file or picture. */
@@ -327,17 +361,21 @@ PlanSurfaces(const SurfacePlanning & planning, const Events & events)
     text +=
       "time          " + DescribeTime(EstimateSeconds(unread, plan, CountPasses(planning), mesh.triangles)) + '\n';
   }
-  else
+  else if (!requests.empty())
   {
     text += "surfaces      not known before the voxels are read\n";
   }
+  LabelPlan labels;
   if (planning.surfaces.labels)
   {
-    text += "labels        not known before their map is read\n";
+    labels = PlanLabelsBeside(planning, unread);
+    text +=
+      "labels        " + DescribeTriangles(labels.work.triangles) + DescribeTemporary(labels.inFiles, source) + '\n';
   }
   return text + "memory        " + DescribeMemory(volumes, source.read.maximumMemory) +
          (known.empty() ? "" : ", then " + DescribeBytes(mesh.bytes.afterwards) + " for the surfaces") +
-         DescribeDrawing(drawing) + '\n' + DescribeUnwritten(planning.output);
+         (labels.inMemory == 0 ? "" : ", then " + DescribeBytes(labels.inMemory) + " for the labels") +
+         DescribeDrawing(std::max(drawing, labels.drawing)) + '\n' + DescribeUnwritten(planning.output);
 }
 
 } // namespace

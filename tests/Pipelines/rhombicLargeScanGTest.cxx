@@ -673,6 +673,39 @@ TEST_F(LargeScan, LabelsBeyondTheMemoryAreTheSameByTemporaryFiles)
   expectSame("coloured by thickness", [](auto & settings) { settings.colourBy = rhombic::ParseColourBy("thickness"); });
 }
 
+TEST_F(LargeScan, LabelsBesideAScanArePlanned)
+{
+  rhombic::MeshScanSettings settings;
+  settings.source = this->SourceOf(this->WriteLabels(), Plenty);
+  settings.source.read.temporaryFolder = m_Folder.Path();
+  settings.mesh = m_Folder.Path() / "mesh.vtp";
+  settings.surfaces.labels.emplace();
+  const auto lineOf = [&settings](const std::string & name) {
+    const std::string plan = rhombic::PlanMeshScan(settings, {});
+    const std::size_t begin = plan.find(name);
+    return begin == std::string::npos ? "no " + name : plan.substr(begin, plan.find('\n', begin) - begin);
+  };
+  const auto triangles = [](const std::string & line) { return line.substr(14, line.find(" triangles") - 14); };
+  const std::string alone = lineOf("surfaces ");
+  settings.surfaces.labels->source.paths = { settings.source.path };
+  EXPECT_EQ(triangles(lineOf("labels ")), triangles(alone));
+  EXPECT_EQ(lineOf("surfaces "), "no surfaces ");
+  EXPECT_NE(lineOf("memory ").find(" for the labels"), std::string::npos);
+  rhombic::SurfaceRequest request;
+  request.name = "ball";
+  request.isovalue = 3.5;
+  settings.surfaces.requests = { request };
+  EXPECT_NE(lineOf("surfaces ").find(" million triangles"), std::string::npos);
+  if (rhombic::FindObstacle({ m_Folder.Path(), {} }, Plenty).empty())
+  {
+    settings.source.lattice.maximumMemory = 10'000'000;
+    EXPECT_NE(lineOf("labels ").find(" in temporary files in " + m_Folder.Path().string()), std::string::npos);
+  }
+  settings.source.read.temporaryFolder = m_Folder.Path() / "none";
+  settings.source.lattice.maximumMemory = 10'000'000;
+  EXPECT_THROW(rhombic::PlanMeshScan(settings, {}), rhombic::Failure);
+}
+
 TEST_F(LargeScan, LabelsBeyondTheMemoryAreRefusedWithoutRoom)
 {
   rhombic::MeshScanSettings settings;
@@ -735,7 +768,8 @@ TEST_F(LargeScan, MeshesBeyond32BitsAreRefusedBeforeTheWork)
   const auto sentenceOf = [&settings](double triangles) -> std::string {
     try
     {
-      rhombic::MeshEstimate mesh{ triangles, {} };
+      rhombic::MeshEstimate mesh;
+      mesh.triangles = triangles;
       CheckMesh(mesh, settings);
     }
     catch (const rhombic::Failure & failure)
