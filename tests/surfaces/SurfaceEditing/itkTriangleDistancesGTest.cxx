@@ -106,6 +106,13 @@ TEST(NearbyTriangles, TheNearestIsThatOfASearchOneByOne)
     ASSERT_NEAR(nearest.squaredDistance, least, 1e-11);
     ASSERT_NEAR(
       itk::SquaredDistance(from, itk::ClosestOnTriangle(from, triangles[nearest.triangle - 1000])), least, 1e-11);
+    const double limit = std::uniform_real_distribution<double>(0.0, 4.0)(random);
+    const auto within = nearby.FindWithin(limit, from);
+    for (std::size_t k = 0; k < within.size(); ++k)
+    {
+      const double squared = k <= n ? itk::SquaredDistance(from, itk::ClosestOnTriangle(from, triangles[k])) : 1e9;
+      ASSERT_TRUE(within[k] ? squared <= limit + 1e-11 : squared >= limit - 1e-11) << k << " of " << n + 1;
+    }
   }
   EXPECT_FALSE(nearby.Add(0, triangles.front()));
 }

@@ -86,4 +86,49 @@ TEST(TriangleProximity, TheTrianglesOfAProofAreEnough)
   EXPECT_GT(incomplete, 0u);
 }
 
+TEST(TriangleProximity, FewTrianglesShowWhatTheSearchOfAllSays)
+{
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> place(2.0, Side - 3.0);
+  std::uniform_real_distribution<double> step(-1.6, 1.6);
+  std::uniform_real_distribution<double> height(0.0, 0.4);
+  constexpr double distance = 0.25;
+  unsigned int near = 0;
+  for (unsigned int n = 0; n < 3000; ++n)
+  {
+    const auto surface = MakeRoughSquare(0.3, n % 50);
+    const itk::PositionType first{ place(random), place(random), height(random) };
+    const auto beside = [&]() -> itk::PositionType {
+      return { first[0] + step(random), first[1] + step(random), height(random) };
+    };
+    const itk::CornersType triangle{ first, beside(), beside() };
+    const itk::TriangleTree tree(*surface);
+    itk::ProximityProof proof;
+    itk::TriangleProximity proximity(triangle, tree, distance, &proof);
+    EXPECT_FALSE(proximity.IsNearNearby());
+    std::array<std::uint32_t, 3> likely{};
+    for (unsigned int corner = 0; corner < 3; ++corner)
+    {
+      likely[corner] = tree.FindClosestPoint(triangle[corner]).triangle;
+      proximity.GetNearby().Add(likely[corner], itk::CornersOf(*surface, surface->GetTriangles()[likely[corner]]));
+    }
+    if (!proximity.IsNearNearby())
+    {
+      continue;
+    }
+    ++near;
+    ASSERT_TRUE(itk::TriangleProximity(triangle, tree, distance).IsNearSurface(likely)) << n;
+    ASSERT_TRUE(proof.size > 0 && proof.IsComplete());
+    const itk::TriangleTree some(*surface, { proof.triangles.begin(), proof.triangles.begin() + proof.size });
+    for (unsigned int sample = 0; sample < 100; ++sample)
+    {
+      const double a = std::sqrt(std::generate_canonical<double, 32>(random));
+      const double b = std::generate_canonical<double, 32>(random);
+      const itk::PositionType point = rhombic::Mix(triangle[0], rhombic::Mix(triangle[1], triangle[2], b), a);
+      ASSERT_LE(some.FindClosestPoint(point).squaredDistance, 0.81 * distance * distance) << n;
+    }
+  }
+  EXPECT_GT(near, 300u);
+}
+
 } // namespace

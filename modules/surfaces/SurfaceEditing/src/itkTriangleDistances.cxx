@@ -87,6 +87,19 @@ NearestOfFan(const double * HWY_RESTRICT values,
   }
 }
 
+/** The squared distances of a position from the triangles n and behind. \param rows of triangles, whole vectors */
+HWY_INLINE Vector
+DistancesAt(const double * HWY_RESTRICT rows, std::size_t stride, std::size_t n, const double * position)
+{
+  const Doubles d;
+  const auto row = [=](int which) HWY_ATTR { return hn::LoadU(d, rows + which * stride + n); };
+  const auto term = [=](int which) HWY_ATTR { return hn::LoadU(d, rows + (3 + which) * stride + n); };
+  const Vector x = Broadcast(position[0]) - row(0);
+  const Vector y = Broadcast(position[1]) - row(1);
+  const Vector z = Broadcast(position[2]) - row(2);
+  return x * x + y * y + z * z + DistanceFrom(term, x, y, z);
+}
+
 /** \param rows of triangles, whole vectors \param squared gets the squared distances of a position from them */
 HWY_ATTR void
 DistancesFromAll(const double * HWY_RESTRICT rows,
@@ -98,12 +111,26 @@ DistancesFromAll(const double * HWY_RESTRICT rows,
   const Doubles d;
   for (std::size_t n = 0; n < count; n += hn::Lanes(d))
   {
-    const auto row = [=](int which) HWY_ATTR { return hn::LoadU(d, rows + which * stride + n); };
-    const auto term = [=](int which) HWY_ATTR { return hn::LoadU(d, rows + (3 + which) * stride + n); };
-    const Vector x = Broadcast(position[0]) - row(0);
-    const Vector y = Broadcast(position[1]) - row(1);
-    const Vector z = Broadcast(position[2]) - row(2);
-    hn::StoreU(x * x + y * y + z * z + DistanceFrom(term, x, y, z), d, squared + n);
+    hn::StoreU(DistancesAt(rows, stride, n, position), d, squared + n);
+  }
+}
+
+/** As DistancesFromAll(). \param bits gets bit n if triangle n is within a squared distance, for whole vectors */
+HWY_ATTR void
+WithinOfAll(const double * HWY_RESTRICT rows,
+            std::size_t stride,
+            std::size_t count,
+            const double * position,
+            double squaredDistance,
+            std::uint64_t * HWY_RESTRICT bits)
+{
+  const Doubles d;
+  for (std::size_t n = 0; n < count; n += hn::Lanes(d))
+  {
+    const auto isWithin = DistancesAt(rows, stride, n, position) <= Broadcast(squaredDistance);
+    std::uint8_t bytes[8]{};
+    hn::StoreMaskBits(d, isWithin, bytes);
+    bits[n / 64] |= std::uint64_t{ bytes[0] } << n % 64;
   }
 }
 
@@ -118,6 +145,7 @@ namespace itk
 
 HWY_EXPORT(NearestOfFan);
 HWY_EXPORT(DistancesFromAll);
+HWY_EXPORT(WithinOfAll);
 
 TriangleTerms::TriangleTerms(const PositionType & b, const PositionType & c)
 {
@@ -192,6 +220,17 @@ NearbyTriangles::FindNearest(const PositionType & position) const
   HWY_DYNAMIC_DISPATCH(DistancesFromAll)(m_Rows.data(), Capacity, m_Size, position.data(), squared.data());
   const double * const least = std::min_element(squared.data(), squared.data() + m_Size);
   return { m_Triangles[least - squared.data()], *least };
+}
+
+NearbyTriangles::Some
+NearbyTriangles::FindWithin(double squaredDistance, const PositionType & position) const
+{
+  std::array<std::uint64_t, 2> bits{};
+  HWY_DYNAMIC_DISPATCH(WithinOfAll)
+  (m_Rows.data(), Capacity, m_Size, position.data(), squaredDistance, bits.data());
+  const std::size_t last = (m_Size + 63) / 64 - 1; // behind the last triangle there is anything
+  bits[last] &= ~std::uint64_t{ 0 } >> (64 * (last + 1) - m_Size);
+  return Some(bits[0]) | Some(bits[1]) << 64;
 }
 
 } // namespace itk

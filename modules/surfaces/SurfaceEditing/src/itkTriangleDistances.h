@@ -4,6 +4,7 @@
 #include "detail/itkPositionArithmetic.h"
 
 #include <array>
+#include <bitset>
 #include <cstdint>
 #include <vector>
 
@@ -104,10 +105,26 @@ public:
     double squaredDistance;
   };
 
+  /** Bit n for the n-th triangle that was added. */
+  using Some = std::bitset<Capacity>;
+
   bool
   IsEmpty() const
   {
     return m_Size == 0;
+  }
+
+  std::size_t
+  GetSize() const
+  {
+    return m_Size;
+  }
+
+  /** Forgets all but the first \a size triangles. */
+  void
+  KeepFirst(std::size_t size)
+  {
+    m_Size = size;
   }
 
   /** Returns false if there is no room. */
@@ -117,6 +134,17 @@ public:
   /** Of at least one triangle; the first of several. */
   Nearest
   FindNearest(const PositionType & position) const;
+
+  /** Those within a distance of a position. */
+  Some
+  FindWithin(double squaredDistance, const PositionType & position) const;
+
+  /** The triangle that was added as the n-th. */
+  std::uint32_t
+  GetTriangle(std::size_t n) const
+  {
+    return m_Triangles[n];
+  }
 
 private:
   static constexpr std::size_t NumberOfRows = 3 + TriangleTerms::Number;

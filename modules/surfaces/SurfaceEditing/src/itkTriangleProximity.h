@@ -55,7 +55,10 @@ struct ProximityProof
  * triangle is then near it, or is cut further. Pieces are no longer cut when their longest side is below a quarter of
  * that of the triangle and of the nearest triangle of the surface: then the corners must be near and the centre within
  * 0.9 times the distance. So the answer yes is proven except between these points, no farther than 0.1 of that side
- * from one of these points. */
+ * from one of these points.
+ *
+ * Most triangles need less: IsNearNearby() halves them until the corners of each piece are near one of a few triangles.
+ * It asks for distances of 0.9 times the distance at most, so that its yes is also that of the search above. */
 class TriangleProximity
 {
 public:
@@ -90,6 +93,36 @@ public:
     return this->IsNearOneOf(likely) || this->IsNear(Piece(m_Triangle), likely[0]);
   }
 
+  /** Whether the triangle is certain to be near those of GetNearby(), by few cuts. */
+  bool
+  IsNearNearby() const
+  {
+    if (m_Nearby.IsEmpty())
+    {
+      return false;
+    }
+    std::array<MarkedCorner, 3> corners;
+    for (unsigned int n = 0; n < 3; ++n)
+    {
+      corners[n] = this->Mark(m_Triangle[n]);
+      if (corners[n].near.none())
+      {
+        return false;
+      }
+    }
+    NearbyTriangles::Some needed;
+    unsigned int cuts = MostCuts;
+    if (!this->AreHalvesNear(corners[0], corners[1], corners[2], needed, cuts))
+    {
+      return false;
+    }
+    for (std::size_t n = 0; m_Proof != nullptr && n < needed.size(); ++n)
+    {
+      needed[n] ? m_Proof->Add(m_Nearby.GetTriangle(n)) : void();
+    }
+    return true;
+  }
+
   /** Triangles of the surface around the triangle, in which nearest ones are searched for first. Faster than the tree,
    * if some are near each point of the triangle. */
   NearbyTriangles &
@@ -102,6 +135,7 @@ private:
   static constexpr double SmallestShareOfSide = 0.25; ///< smaller pieces are not cut
   static constexpr double NearForCentres = 0.9;       ///< relative to the distance
   static constexpr double LeastInside = 0.0625;       ///< of centres, relative to the farthest corner's distance
+  static constexpr unsigned int MostCuts = 48;        ///< into halves
   static constexpr unsigned int ManyCorners = 8;      ///< a cut across pieces of more would leave too many
 
   /** A convex part of the triangle. */
@@ -183,6 +217,55 @@ private:
       }
     }
     return parts;
+  }
+
+  /** A corner of a piece, and which of the nearby triangles are near it. */
+  struct MarkedCorner
+  {
+    PositionType position;
+    NearbyTriangles::Some near;
+  };
+
+  MarkedCorner
+  Mark(const PositionType & position) const
+  {
+    constexpr double rounding = 1e-9; // far more than that of distances
+    const double distance = NearForCentres * (1.0 - rounding) * m_Distance;
+    return { position, m_Nearby.FindWithin(distance * distance, position) };
+  }
+
+  /** Whether a piece is certain to be near the nearby triangles. \param needed gets those that show it \param cuts how
+   * many may be made */
+  bool
+  AreHalvesNear(const MarkedCorner & a,
+                const MarkedCorner & b,
+                const MarkedCorner & c,
+                NearbyTriangles::Some & needed,
+                unsigned int & cuts) const
+  {
+    const NearbyTriangles::Some common = a.near & b.near & c.near;
+    if (common.any())
+    {
+      if ((common & needed).none())
+      {
+        needed.set(common._Find_first());
+      }
+      return true;
+    }
+    if (cuts == 0)
+    {
+      return false;
+    }
+    --cuts;
+    const double ab = SquaredDistance(a.position, b.position);
+    const double bc = SquaredDistance(b.position, c.position);
+    const double ca = SquaredDistance(c.position, a.position);
+    const auto cut = [&](const MarkedCorner & from, const MarkedCorner & to, const MarkedCorner & opposite) {
+      const MarkedCorner middle = this->Mark(Mix(from.position, to.position, 0.5));
+      return middle.near.any() && this->AreHalvesNear(from, middle, opposite, needed, cuts) &&
+             this->AreHalvesNear(middle, to, opposite, needed, cuts);
+    };
+    return ab >= bc && ab >= ca ? cut(a, b, c) : bc >= ca ? cut(b, c, a) : cut(c, a, b);
   }
 
   static double

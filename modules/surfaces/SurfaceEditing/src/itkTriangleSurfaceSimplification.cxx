@@ -680,13 +680,35 @@ private:
           }
         }
         TriangleProximity proximity(corners, tree, m_MaximumError);
-        if (!proximity.IsNearOneOf(near))
+        AddThree(*m_Original->surface, near, proximity.GetNearby());
+        if (!proximity.IsNearNearby())
         {
-          this->CollectOriginals(static_cast<TriangleId>(id), proximity.GetNearby());
-          isBad[id] |= proximity.IsNearSurface(near) ? 0 : 1;
+          NearbyTriangles & nearby = proximity.GetNearby();
+          nearby.KeepFirst(0);
+          this->CollectOriginals(static_cast<TriangleId>(id), nearby);
+          const std::size_t collected = nearby.GetSize();
+          AddThree(*m_Original->surface, near, nearby);
+          if (!proximity.IsNearNearby())
+          {
+            nearby.KeepFirst(collected);
+            isBad[id] |= proximity.IsNearSurface(near) ? 0 : 1;
+          }
         }
       }
     });
+  }
+
+  /** Adds three triangles of a surface, each of them once. */
+  static void
+  AddThree(const TriangleSurface & surface, const std::array<TriangleId, 3> & three, NearbyTriangles & nearby)
+  {
+    for (unsigned int n = 0; n < 3; ++n)
+    {
+      if (std::find(three.begin(), three.begin() + n, three[n]) == three.begin() + n)
+      {
+        nearby.Add(three[n], CornersOf(surface, surface.GetTriangles()[three[n]]));
+      }
+    }
   }
 
   /** Collects triangles of the original with a corner that a triangle covers, as far as there is room. */
@@ -754,8 +776,13 @@ private:
       {
         const CornersType corners = CornersOf(original, triangles[id]);
         const TriangleTree & tree = state[m_Original->sheets[id]];
-        const TriangleProximity proximity(corners, tree, m_MaximumError);
-        m_IsCovered[id] = (near[0] == near[1] && near[1] == near[2]) || proximity.IsNearOneOf(near);
+        TriangleProximity proximity(corners, tree, m_MaximumError);
+        m_IsCovered[id] = near[0] == near[1] && near[1] == near[2];
+        if (!m_IsCovered[id])
+        {
+          AddThree(m_State, near, proximity.GetNearby());
+          m_IsCovered[id] = proximity.IsNearNearby() ? 1 : 0;
+        }
         isUncovered[id] = !m_IsCovered[id] && !this->ProveNear(static_cast<TriangleId>(id), corners, tree, near);
       }
     });
