@@ -83,6 +83,32 @@ TEST(FanDistances, TrianglesWhoseNumbersHaveNoRoomAreRefused)
   EXPECT_FALSE(distances.FindNearest(0.26, numbers));
 }
 
+TEST(NearestPoints, AreThoseOfASearchOneByOne)
+{
+  std::mt19937 random(7);
+  std::uniform_int_distribution<int> place(0, 4); // many points are equally near
+  const auto position = [&] { return itk::PositionType{ 1.0 * place(random), 1.0 * place(random), 0.0 }; };
+  itk::NearestPoints nearest;
+  for (int round = 0; round < 200; ++round)
+  {
+    std::vector<itk::PositionType> points(1 + random() % 20), samples(random() % 20);
+    std::generate(points.begin(), points.end(), position);
+    std::generate(samples.begin(), samples.end(), position);
+    nearest.Clear();
+    std::for_each(points.begin(), points.end(), [&](const auto & point) { nearest.AddPoint(point); });
+    std::for_each(samples.begin(), samples.end(), [&](const auto & sample) { nearest.AddSample(sample); });
+    nearest.Find();
+    for (std::size_t n = 0; n < samples.size(); ++n)
+    {
+      const auto first = std::min_element(points.begin(), points.end(), [&](const auto & a, const auto & b) {
+        return itk::SquaredDistance(a, samples[n]) < itk::SquaredDistance(b, samples[n]);
+      });
+      ASSERT_EQ(nearest.GetPoint(n), static_cast<std::size_t>(first - points.begin()));
+      ASSERT_EQ(nearest.GetSquaredDistance(n), itk::SquaredDistance(*first, samples[n]));
+    }
+  }
+}
+
 TEST(NearbyTriangles, TheNearestIsThatOfASearchOneByOne)
 {
   std::mt19937 random(6);

@@ -679,11 +679,13 @@ private:
     return m_Original.surface == nullptr || (this->IsNearOriginal(edge) && this->AreWitnessesNear(edge.position));
   }
 
-  /** Checks the position, the middles of the edges there and the centres of the triangles around it. */
+  /** Checks the position, the middles of the edges there and the centres of the triangles around it: a witness around
+   * the edge, or a triangle of the original at the nearest one, must be near. */
   bool
   IsNearOriginal(EdgeToCollapse & edge)
   {
     m_Around.clear();
+    m_NearestPoints.Clear();
     for (const Fan & fan : std::array<std::reference_wrapper<const Fan>, 2>{ m_FromFan, m_ToFan })
     {
       for (const FanTriangle & triangle : fan)
@@ -691,50 +693,45 @@ private:
         for (WitnessId id = m_FirstWitness[triangle.id]; id != None; id = m_NextWitness[id])
         {
           m_Around.push_back(id);
+          m_NearestPoints.AddPoint(m_WitnessPositions[id]);
         }
       }
     }
+    if (m_Around.empty())
+    {
+      return false;
+    }
     const PositionType & position = edge.position;
-    edge.near = this->FindNear(position);
-    return edge.near != None && std::all_of(m_Changed.begin(), m_Changed.end(), [&](const FanTriangle & fan) {
-             const PositionType & next = m_Positions[fan.next];
-             const PositionType oppositeMiddle = Mix(next, m_Positions[fan.last], 0.5);
-             return this->IsNear(Mix(position, next, 0.5)) && this->IsNear(Mix(position, oppositeMiddle, 2.0 / 3.0));
-           });
+    m_Samples.assign(1, position);
+    for (const FanTriangle & fan : m_Changed)
+    {
+      const PositionType & next = m_Positions[fan.next];
+      const PositionType oppositeMiddle = Mix(next, m_Positions[fan.last], 0.5);
+      m_Samples.push_back(Mix(position, next, 0.5));
+      m_Samples.push_back(Mix(position, oppositeMiddle, 2.0 / 3.0));
+    }
+    std::for_each(
+      m_Samples.begin(), m_Samples.end(), [this](const auto & sample) { m_NearestPoints.AddSample(sample); });
+    m_NearestPoints.Find();
+    edge.near = this->FindNear(0);
+    bool areNear = edge.near != None;
+    for (std::size_t n = 1; n < m_Samples.size() && areNear; ++n)
+    {
+      areNear =
+        m_NearestPoints.GetSquaredDistance(n) <= m_Original.limit * m_Original.limit || this->FindNear(n) != None;
+    }
+    return areNear;
   }
 
-  bool
-  IsNear(const PositionType & sample) const
-  {
-    const double limit = m_Original.limit * m_Original.limit;
-    return std::any_of(m_Around.begin(),
-                       m_Around.end(),
-                       [&](WitnessId id) { return SquaredDistance(m_WitnessPositions[id], sample) <= limit; }) ||
-           this->FindNear(sample) != None;
-  }
-
-  /** A triangle of the original near a sample, among those at the nearest witness around the edge; None if there is
-   * none.
-   */
+  /** A triangle of the original near sample \a n, among those at the nearest witness around the edge; None if there is
+   * none. */
   TriangleId
-  FindNear(const PositionType & sample) const
+  FindNear(std::size_t n) const
   {
-    double least = std::numeric_limits<double>::infinity();
-    WitnessId witness = None;
-    for (const WitnessId id : m_Around)
-    {
-      const double squared = SquaredDistance(m_WitnessPositions[id], sample);
-      witness = squared < least ? id : witness;
-      least = std::min(least, squared);
-    }
-    if (witness == None)
-    {
-      return None;
-    }
-    const PositionType absolute = Add(sample, m_Origin);
+    const PositionType absolute = Add(m_Samples[n], m_Origin);
     TriangleId nearest = None;
-    least = m_Original.limit * m_Original.limit;
-    m_Original.triangles->VisitTriangles(m_WitnessPoints[witness], [&](TriangleId id) {
+    double least = m_Original.limit * m_Original.limit;
+    m_Original.triangles->VisitTriangles(m_WitnessPoints[m_Around[m_NearestPoints.GetPoint(n)]], [&](TriangleId id) {
       const CornersType corners = CornersOf(*m_Original.surface, m_Original.surface->GetTriangles()[id]);
       const double squared = SquaredDistance(absolute, ClosestOnTriangle(absolute, corners));
       nearest = squared <= least ? id : nearest;
@@ -910,7 +907,9 @@ private:
   std::vector<WitnessId> m_NextWitness;
 
   // The candidate that is tried.
-  std::vector<WitnessId> m_Around; ///< the witnesses of all triangles at its points
+  std::vector<WitnessId> m_Around;     ///< the witnesses of all triangles at its points
+  std::vector<PositionType> m_Samples; ///< its position, and others around it
+  NearestPoints m_NearestPoints;       ///< the nearest of m_Around for each of m_Samples
   Fan m_FromFan;
   Fan m_ToFan;
   Fan m_Changed;                         ///< the triangles around its position that change

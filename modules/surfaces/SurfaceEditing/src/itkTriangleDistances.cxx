@@ -87,6 +87,34 @@ NearestOfFan(const double * HWY_RESTRICT values,
   }
 }
 
+/** \param samples x, y and z of whole vectors
+ *  \param nearest gets for each sample the number of the nearest point, and then the squared distances */
+HWY_ATTR void
+NearestOfPoints(const std::array<const double *, 3> & samples,
+                std::size_t size,
+                const PositionType * points,
+                std::size_t count,
+                double * HWY_RESTRICT nearest)
+{
+  const Doubles d;
+  for (std::size_t n = 0; n < size; n += hn::Lanes(d))
+  {
+    const Vector x = hn::LoadU(d, samples[0] + n), y = hn::LoadU(d, samples[1] + n), z = hn::LoadU(d, samples[2] + n);
+    Vector least = Broadcast(std::numeric_limits<double>::infinity());
+    Vector number = hn::Zero(d);
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      const Vector u = Broadcast(points[k][0]) - x, v = Broadcast(points[k][1]) - y, w = Broadcast(points[k][2]) - z;
+      const Vector squared = u * u + v * v + w * w;
+      const auto isNearer = squared < least;
+      least = hn::IfThenElse(isNearer, squared, least);
+      number = hn::IfThenElse(isNearer, Broadcast(static_cast<double>(k)), number);
+    }
+    hn::StoreU(number, d, nearest + n);
+    hn::StoreU(least, d, nearest + size + n);
+  }
+}
+
 /** The squared distances of a position from the triangles n and behind. \param rows of triangles, whole vectors */
 HWY_INLINE Vector
 DistancesAt(const double * HWY_RESTRICT rows, std::size_t stride, std::size_t n, const double * position)
@@ -144,6 +172,7 @@ namespace itk
 {
 
 HWY_EXPORT(NearestOfFan);
+HWY_EXPORT(NearestOfPoints);
 HWY_EXPORT(DistancesFromAll);
 HWY_EXPORT(WithinOfAll);
 
@@ -190,6 +219,24 @@ FanDistances::FindNearest(double squaredDistance, std::vector<std::uint16_t> & n
     areNear = areNear && m_Nearest[m_Stride + n] <= squaredDistance;
   }
   return areNear;
+}
+
+void
+NearestPoints::Find()
+{
+  constexpr std::size_t lanes = FanDistances::MostLanes;
+  const std::size_t size = (m_Samples[0].size() + lanes - 1) / lanes * lanes;
+  for (auto & row : m_Samples)
+  {
+    row.resize(size);
+  }
+  m_Nearest.resize(2 * size);
+  HWY_DYNAMIC_DISPATCH(NearestOfPoints)
+  ({ m_Samples[0].data(), m_Samples[1].data(), m_Samples[2].data() },
+   size,
+   m_Points.data(),
+   m_Points.size(),
+   m_Nearest.data());
 }
 
 bool

@@ -92,6 +92,61 @@ private:
   std::vector<double> m_Nearest; ///< for each witness, the number of a triangle, and then its squared distance
 };
 
+/** \class NearestPoints
+ * \brief The nearest of some points for each of some samples. */
+class NearestPoints
+{
+public:
+  /** Forgets all points and samples. */
+  void
+  Clear()
+  {
+    m_Points.clear();
+    for (auto & row : m_Samples)
+    {
+      row.clear();
+    }
+  }
+
+  void
+  AddPoint(const PositionType & position)
+  {
+    m_Points.push_back(position);
+  }
+
+  void
+  AddSample(const PositionType & position)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      m_Samples[axis].push_back(position[axis]);
+    }
+  }
+
+  /** Finds the nearest point for each sample, the first of several. */
+  void
+  Find();
+
+  /** The number of the nearest point of sample \a n, if there are points. */
+  std::size_t
+  GetPoint(std::size_t n) const
+  {
+    return static_cast<std::size_t>(m_Nearest[n]);
+  }
+
+  /** Of sample \a n from the nearest point; infinite if there are no points. */
+  double
+  GetSquaredDistance(std::size_t n) const
+  {
+    return m_Nearest[m_Samples[0].size() + n];
+  }
+
+private:
+  std::vector<PositionType> m_Points;
+  std::array<std::vector<double>, 3> m_Samples; ///< x, y and z
+  std::vector<double> m_Nearest; ///< for each sample, the number of a point, and then its squared distance
+};
+
 /** \class NearbyTriangles
  * \brief The nearest of some triangles to a position. Makes no allocations. */
 class NearbyTriangles
