@@ -12,9 +12,11 @@
 
 #include <cmath>
 #include <map>
+#include <mutex>
 #include <numeric>
 #include <optional>
 #include <ostream>
+#include <unordered_map>
 
 namespace itk
 {
@@ -265,7 +267,6 @@ public:
         }
       }
       m_IsCovered.assign(surface.GetNumberOfTriangles(), 1);
-      m_Proofs.resize(surface.GetNumberOfTriangles());
     }
     m_Versions.resize(surface.GetNumberOfTriangles());
     std::iota(m_Versions.begin(), m_Versions.end(), 0u);
@@ -733,8 +734,9 @@ private:
 
   /** Whether the triangles that proved that a triangle of the original is near the state are all still there. */
   bool
-  IsStillNear(TriangleId id) const
+  IsStillNear(TriangleId id)
   {
+    const std::lock_guard<std::mutex> lock(m_ProofsMutex);
     const ProximityProof & proof = m_Proofs[id];
     const auto * const end = proof.triangles.data() + std::min(proof.size, ProximityProof::MostTriangles);
     return proof.size > 0 && proof.IsComplete() &&
@@ -755,6 +757,7 @@ private:
     {
       triangle = m_Versions[triangle];
     }
+    const std::lock_guard<std::mutex> lock(m_ProofsMutex);
     m_Proofs[id] = isNear ? proof : ProximityProof();
     return isNear;
   }
@@ -870,7 +873,8 @@ private:
   BulkVector<std::uint32_t> m_FirstCovered;  ///< for each triangle of m_State, its first of these, and the end
   Flags m_IsCovered; ///< for each triangle of the original, whether the triangles that cover its corners cover it
 
-  BulkVector<ProximityProof> m_Proofs; ///< for each triangle of the original that is not covered: by versions
+  std::mutex m_ProofsMutex;
+  std::unordered_map<TriangleId, ProximityProof> m_Proofs; ///< of the few of the original that are not covered: by versions
   BulkVector<VersionId> m_Versions;    ///< of the triangles of m_State
   Flags m_IsPresent;                   ///< for each version, whether m_State has it
 
