@@ -99,6 +99,38 @@ TEST(BulkMemory, SmallArraysOfManyThreadsShareBlocks)
   }
 }
 
+#ifndef __SANITIZE_ADDRESS__ // which keeps all memory for itself
+TEST(BulkMemory, BlocksThatComeAndGoLeaveNoHoles)
+{
+  const auto resident = [] {
+    std::ifstream statm("/proc/self/statm");
+    std::size_t all = 0, pages = 0;
+    statm >> all >> pages;
+    return pages * 4096;
+  };
+  const auto touched = [](std::size_t bytes) {
+    void * const block = rhombic::AllocateBulk(bytes);
+    std::memset(block, 1, bytes);
+    return block;
+  };
+  std::vector<void *> kept;
+  std::size_t first = 0;
+  for (std::size_t round = 0; round < 20; ++round)
+  {
+    std::vector<void *> blocks;
+    for (const std::size_t mebibytes : { 12, 5, 9, 20 })
+    {
+      blocks.push_back(touched((mebibytes << 20U) - 100 * round));
+    }
+    std::for_each(blocks.begin(), blocks.end(), rhombic::FreeBulk);
+    kept.push_back(touched(rhombic::SmallestBulk)); // somewhere in a hole
+    first = round < 4 ? resident() : first;
+  }
+  EXPECT_LT(resident(), first + (std::size_t{ 24 } << 20));
+  std::for_each(kept.begin(), kept.end(), rhombic::FreeBulk);
+}
+#endif
+
 TEST(BulkMemory, FoldersWithoutRoomAreRefusedInWords)
 {
   const rhombictest::TemporaryFolder folder;

@@ -79,8 +79,13 @@ AllocateBulk(std::size_t bytes)
   {
     return NotNull(std::malloc(bytes));
   }
+  // Aligned blocks leave holes that glibc before 2.38 does not fill with others of the same size; from 32 MiB on they
+  // are pages of their own.
+  constexpr std::size_t smallestAligned = std::size_t{ 1 } << 25;
   constexpr std::size_t hugePage = std::size_t{ 1 } << 21;
-  void * const block = NotNull(std::aligned_alloc(hugePage, (bytes + hugePage - 1) / hugePage * hugePage));
+  void * const block =
+    NotNull(bytes < smallestAligned ? std::malloc(bytes)
+                                    : std::aligned_alloc(hugePage, (bytes + hugePage - 1) / hugePage * hugePage));
   itk::AdviseHugePages(block, bytes);
   return block;
 }
