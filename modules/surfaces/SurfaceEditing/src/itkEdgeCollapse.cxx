@@ -431,18 +431,23 @@ private:
     return true;
   }
 
+  /** Also unlinks the corners of triangles that are gone. */
   void
-  CollectFan(PointId point, Fan & fan) const
+  CollectFan(PointId point, Fan & fan)
   {
     fan.clear();
-    for (CornerId corner = m_FirstCorner[point]; corner != None; corner = m_NextCorner[corner])
+    for (CornerId * link = &m_FirstCorner[point]; *link != None;)
     {
+      const CornerId corner = *link;
       const TriangleId id = corner / 3;
-      if (m_Remains[id])
+      if (!m_Remains[id])
       {
-        const TriangleType & triangle = m_Triangles[id];
-        fan.push_back({ id, triangle[(corner + 1) % 3], triangle[(corner + 2) % 3] });
+        *link = m_NextCorner[corner];
+        continue;
       }
+      const TriangleType & triangle = m_Triangles[id];
+      fan.push_back({ id, triangle[(corner + 1) % 3], triangle[(corner + 2) % 3] });
+      link = &m_NextCorner[corner];
     }
   }
 
@@ -633,7 +638,7 @@ private:
   /** Whether sheets keep their order around each edge of a curve. Where sheets change places, they enclose a region the
    * wrong way round, without a crossing. */
   bool
-  KeepsOrder(PointId from, PointId to, const PositionType & position) const
+  KeepsOrder(PointId from, PointId to, const PositionType & position)
   {
     const auto isOnCurve = [this](PointId point) { return m_Strata[point] != Stratum::Sheet; };
     const auto keepsAtPoint = [&](PointId other) { // the edge between the position and the other point

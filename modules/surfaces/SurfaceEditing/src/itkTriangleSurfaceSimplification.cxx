@@ -1,5 +1,6 @@
 #include "itkTriangleSurfaceSimplification.h"
 
+#include "detail/itkClosestOnTriangle.h"
 #include "detail/itkPositionArithmetic.h"
 #include "itkTriangleSurfaceIntersections.h"
 #include "itkEdgeCollapse.h"
@@ -762,6 +763,20 @@ private:
     return isNear;
   }
 
+  /** Whether a triangle of the original is near the one that covers most of its corners. Those are near it: collapses
+   * keep witnesses near. */
+  bool
+  IsCoveredByMost(const std::array<TriangleId, 3> & near, const CornersType & corners) const
+  {
+    const unsigned int other = near[0] == near[1] ? 2 : near[0] == near[2] ? 1 : 0; // corners of which one may differ
+    const TriangleId most = near[(other + 1) % 3];
+    return most == near[(other + 2) % 3] &&
+           (most == near[other] ||
+            SquaredDistance(corners[other],
+                            ClosestOnTriangle(corners[other], CornersOf(m_State, m_State.GetTriangles()[most]))) <=
+              m_MaximumError * m_MaximumError);
+  }
+
   /** Adds the triangles around those of the original that are farther than maximumError from the state. Checks those of
    * which corners are covered by a triangle that has changed, or all that are not covered by these triangles alone, but
    * for those whose proof still holds. */
@@ -780,7 +795,7 @@ private:
         const CornersType corners = CornersOf(original, triangles[id]);
         const TriangleTree & tree = state[m_Original->sheets[id]];
         TriangleProximity proximity(corners, tree, m_MaximumError);
-        m_IsCovered[id] = near[0] == near[1] && near[1] == near[2];
+        m_IsCovered[id] = this->IsCoveredByMost(near, corners);
         if (!m_IsCovered[id])
         {
           AddThree(m_State, near, proximity.GetNearby());
@@ -874,9 +889,10 @@ private:
   Flags m_IsCovered; ///< for each triangle of the original, whether the triangles that cover its corners cover it
 
   std::mutex m_ProofsMutex;
-  std::unordered_map<TriangleId, ProximityProof> m_Proofs; ///< of the few of the original that are not covered: by versions
-  BulkVector<VersionId> m_Versions;    ///< of the triangles of m_State
-  Flags m_IsPresent;                   ///< for each version, whether m_State has it
+  std::unordered_map<TriangleId, ProximityProof>
+    m_Proofs;                       ///< of the few of the original that are not covered: by versions
+  BulkVector<VersionId> m_Versions; ///< of the triangles of m_State
+  Flags m_IsPresent;                ///< for each version, whether m_State has it
 
   // The current step.
   TriangleSurface::Pointer m_Before;
