@@ -304,69 +304,88 @@ struct GaussianInBand
   VoxelBand smoothedInRow;   ///< along x
 };
 
-/** Smooths the rows of \a read with a Gaussian and passes their parts in its band to \a write. Rows and planes of zeros
- * take no time: in thick slices most are. */
-void
-Smooth(const MaskWork & work, const GaussianInBand & gaussian, const RowReader & read, const RowWriter & write)
+/** Smooths the rows of a plane along x and y into \a planeOfScratch. Returns whether any of them has values. */
+bool
+SmoothPlane(const MaskWork & work,
+            const GaussianInBand & gaussian,
+            const RowReader & read,
+            SizeValueType z,
+            float * planeOfScratch)
 {
   const std::vector<float> & weights = gaussian.weights;
   const SizeValueType reach = weights.size() / 2;
   const SizeValueType width = work.size[0];
   const SizeValueType height = work.size[1];
-  const SizeValueType depth = work.size[2];
   const SizeValueType stride = RowArithmetic::PaddedLength(width);
+  std::vector<float> extended(stride + 2 * reach);
+  std::unique_ptr<float[]> plane; // not initialised: what a run reads is made for it
+  LineOfRows rows(height);
+  std::vector<const float *> terms(weights.size());
+  for (SizeValueType y = 0; y < height; ++y)
+  {
+    const SizeValueType number = y + z * height;
+    const auto [first, last] = gaussian.smoothedInRow.FindRange(number);
+    const SizeValueType begin = ClampedIndex(first, reach, width);
+    const SizeValueType end = std::min(last + reach, width);
+    if (!gaussian.smoothedInRow.HasRow(number) || !read(number, begin, end, extended.data() + reach))
+    {
+      continue;
+    }
+    if (!plane)
+    {
+      plane.reset(new float[height * stride]);
+    }
+    float * const row = plane.get() + y * stride;
+    std::fill(row + width, row + stride, 0.0f);
+    rows[y] = row;
+    std::fill_n(extended.begin(), reach, extended[reach]);
+    std::fill_n(extended.begin() + static_cast<std::ptrdiff_t>(reach + width), reach, extended[reach + width - 1]);
+    gaussian.smoothedInRow.ForEachRun(number, [&](SizeValueType beginRun, SizeValueType endRun) {
+      std::iota(terms.begin(), terms.end(), extended.data() + beginRun);
+      RowArithmetic::Blend(terms.data(), weights.data(), terms.size(), endRun - beginRun, row + beginRun);
+    });
+  }
+  if (plane)
+  {
+    const auto inScratch = [&](SizeValueType y) { return planeOfScratch + y * stride; };
+    SmoothAcrossRows(weights, rows, z * height, 1, 0, height, gaussian.smoothedInPlane, inScratch, nullptr);
+  }
+  return plane != nullptr;
+}
 
-  // Along x and y, plane by plane.
+/** Smooths the rows of \a read with a Gaussian and passes their parts in its band to \a write. Rows and planes of zeros
+ * take no time: in thick slices most are.
+ *
+ * Some planes at a time, so that the scratch memory is that of these and of those around them, and each plane is read
+ * before any plane in its reach is written: once, in order, as it may be in a temporary file. */
+void
+Smooth(const MaskWork & work, const GaussianInBand & gaussian, const RowReader & read, const RowWriter & write)
+{
+  constexpr SizeValueType planes = 32;
+  const std::vector<float> & weights = gaussian.weights;
+  const SizeValueType reach = weights.size() / 2;
+  const SizeValueType height = work.size[1];
+  const SizeValueType depth = work.size[2];
+  const SizeValueType stride = RowArithmetic::PaddedLength(work.size[0]);
+  const SizeValueType kept = planes + 2 * reach;
+  const auto scratchOf = [&](SizeValueType z) { return work.scratch + z % kept * height * stride; };
   std::vector<std::uint8_t> hasValues(depth); // by plane
-  work.progress.ForEach(depth, [&](SizeValueType z) {
-    std::vector<float> extended(stride + 2 * reach);
-    std::unique_ptr<float[]> plane; // not initialised: what a run reads is made for it
-    LineOfRows rows(height);
-    std::vector<const float *> terms(weights.size());
-    for (SizeValueType y = 0; y < height; ++y)
-    {
-      const SizeValueType number = y + z * height;
-      const auto [first, last] = gaussian.smoothedInRow.FindRange(number);
-      const SizeValueType begin = ClampedIndex(first, reach, width);
-      const SizeValueType end = std::min(last + reach, width);
-      if (!gaussian.smoothedInRow.HasRow(number) || !read(number, begin, end, extended.data() + reach))
-      {
-        continue;
-      }
-      if (!plane)
-      {
-        plane.reset(new float[height * stride]);
-      }
-      float * const row = plane.get() + y * stride;
-      std::fill(row + width, row + stride, 0.0f);
-      rows[y] = row;
-      hasValues[z] = 1;
-      std::fill_n(extended.begin(), reach, extended[reach]);
-      std::fill_n(extended.begin() + static_cast<std::ptrdiff_t>(reach + width), reach, extended[reach + width - 1]);
-      gaussian.smoothedInRow.ForEachRun(number, [&](SizeValueType beginRun, SizeValueType endRun) {
-        std::iota(terms.begin(), terms.end(), extended.data() + beginRun);
-        RowArithmetic::Blend(terms.data(), weights.data(), terms.size(), endRun - beginRun, row + beginRun);
-      });
-    }
-    if (hasValues[z] != 0)
-    {
-      const auto inScratch = [&](SizeValueType y) { return work.scratch + (y + z * height) * stride; };
-      SmoothAcrossRows(weights, rows, z * height, 1, 0, height, gaussian.smoothedInPlane, inScratch, nullptr);
-    }
-    work.progress.Completed(1);
-  });
-
-  // Along z, for each y: some planes at a time, so that few pages of temporary files are used at once.
-  constexpr SizeValueType planes = 64;
+  SizeValueType next = 0;                     // plane to be smoothed along x and y
   for (SizeValueType begin = 0; begin < depth; begin += planes)
   {
     const SizeValueType end = std::min(begin + planes, depth);
+    const SizeValueType last = std::min(end + reach, depth);
+    work.progress.ForEach(last - next, [&](SizeValueType n) {
+      hasValues[next + n] = SmoothPlane(work, gaussian, read, next + n, scratchOf(next + n)) ? 1 : 0;
+      work.progress.Completed(1);
+    });
+    next = last;
     work.progress.ForEach(height, [&](SizeValueType y) {
       std::vector<float> smoothed(stride);
       LineOfRows rows(depth);
-      for (SizeValueType z = ClampedIndex(begin, reach, depth); z < std::min(end + reach, depth); ++z)
+      for (SizeValueType z = ClampedIndex(begin, reach, depth); z < last; ++z)
       {
-        rows[z] = hasValues[z] != 0 ? work.scratch + (y + z * height) * stride : nullptr;
+        rows[z] = hasValues[z] != 0 ? scratchOf(z) + y * stride : nullptr;
       }
       SmoothAcrossRows(
         weights, rows, y, height, begin, end, gaussian.band, [&](SizeValueType) { return smoothed.data(); }, write);
