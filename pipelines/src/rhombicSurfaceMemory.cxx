@@ -155,7 +155,7 @@ std::uintmax_t
 FitDrawn(LabelWork & labels, const SurfaceWork & work, const CountDrawing & countDrawing, bool & isInFiles)
 {
   constexpr double fewest = 0.25; // of the triangles of walls, for both sides, in fewer triangles; measured
-  constexpr double mostly = 0.65;
+  constexpr double mostly = 0.8;
   isInFiles = FitIntoMemory(labels, work);
   const bool areAllDrawn = AreAllDrawn(work);
   return countDrawing ? countDrawing({ areAllDrawn ? fewest * labels.triangles : 0.0,

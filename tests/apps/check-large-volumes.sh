@@ -1,8 +1,8 @@
 #!/bin/bash
 # check-large-volumes.sh PROGRAM WORK: rhombic mesh in slabs of a scan in a temporary file, and of a surface in temporary
 # files, keeps private memory small, is killed at random moments, and meets full disks: nothing half-written, no file left over but hidden ones of
-# killed processes, and the next run makes the same bytes. Full disks need root, who can mount small ones. rhombic render draws the same picture of
-# a volume in slabs as in memory.
+# killed processes, and the next run makes the same bytes. Full disks need root, who can mount small ones. rhombic render draws the same pictures of
+# a volume in slabs, and of labels in temporary files, as in memory.
 set -eu
 program=$1 work=$2
 rm -rf "$work"
@@ -54,6 +54,15 @@ for run in "80000 --smooth 0.3" "140000 --max-triangles 85%"; do # kB
     (ulimit -d $data; finished 1G "$work/files.ply" $finish) 2> "$work/notes" || code=$?
     [ $code = 9 ] || fail "$finish: as little private memory without temporary files: $code, $(cat "$work/notes")"
 done
+
+# Pictures of labels, too.
+for memory in 340M 2G; do
+    "$program" render "$work/phantom/phantom-labels.nii.gz" --size 200 --max-memory $memory --temporary "$work/tmp" --no-sidecar \
+        -o "$work/labels-$memory.png" 2> "$work/notes-$memory"
+done
+grep -q "labels and their surfaces, .* are put into temporary files" "$work/notes-340M" || fail "in memory: $(cat "$work/notes-340M")"
+! grep -q "temporary files" "$work/notes-2G" || fail "in temporary files: $(cat "$work/notes-2G")"
+cmp "$work/labels-340M.png" "$work/labels-2G.png"
 
 RANDOM=7
 kill_at_random() { # COMMAND EXPECTED RUNS MILLISECONDS
