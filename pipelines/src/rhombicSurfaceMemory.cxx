@@ -148,19 +148,17 @@ FitDrawn(MeshEstimate & mesh, const SurfaceWork & work, const CountDrawing & cou
                   "use a coarser lattice with --density, another threshold or a part of the scan");
   }
   constexpr double atLeast = 0.85; // of the estimate, which gyroids are below
-  return countDrawing ? countDrawing({ AreAllDrawn(work) ? atLeast * mesh.kept : 0.0, mesh.kept }) : 0;
+  const bool areReduced = mesh.kept < mesh.triangles;
+  const double least = AreAllDrawn(work) && !areReduced ? atLeast * mesh.kept : 0.0;
+  return countDrawing ? countDrawing({ least, mesh.kept }) : 0;
 }
 
 std::uintmax_t
 FitDrawn(LabelWork & labels, const SurfaceWork & work, const CountDrawing & countDrawing, bool & isInFiles)
 {
-  constexpr double fewest = 0.25; // of the triangles of walls, for both sides, in fewer triangles; measured
-  constexpr double mostly = 0.8;
+  const double ofWalls = AreAllDrawn(work) ? 0.8 : 2.0; // both sides of walls, in fewer triangles or all; measured
   isInFiles = FitIntoMemory(labels, work);
-  const bool areAllDrawn = AreAllDrawn(work);
-  return countDrawing ? countDrawing({ areAllDrawn ? fewest * labels.triangles : 0.0,
-                                       areAllDrawn ? mostly * labels.triangles : 2.0 * labels.triangles })
-                      : 0;
+  return countDrawing ? countDrawing({ 0.0, ofWalls * labels.triangles }) : 0; // flat walls have few triangles
 }
 
 void

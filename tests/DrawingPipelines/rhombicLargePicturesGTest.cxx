@@ -212,5 +212,16 @@ TEST_F(LargePictures, PlansTellWhatDrawingTakes)
   rhombic::RenderScanSettings settings = this->PicturesOfNoise(Plenty);
   EXPECT_EQ(PlanRenderScan(settings, {}).find("to draw them"), std::string::npos);
   settings.views = { {} };
-  EXPECT_NE(PlanRenderScan(settings, {}).find(" MiB to draw them"), std::string::npos);
+  const auto mebibytesToDraw = [&settings] {
+    const std::string plan = PlanRenderScan(settings, {});
+    const std::size_t end = plan.find(" MiB to draw them");
+    EXPECT_NE(end, std::string::npos) << plan;
+    return std::stod(plan.substr(plan.rfind(' ', end - 1)));
+  };
+  const double small = mebibytesToDraw();
+  settings.render.width = settings.render.height = 1200;
+  const double large = mebibytesToDraw();
+  EXPECT_GT(large, small + 1.0);
+  settings.render.width = settings.render.height = 0; // then 1200 pixels
+  EXPECT_EQ(mebibytesToDraw(), large);
 }

@@ -317,10 +317,12 @@ std::uintmax_t
 CheckDrawing(const RenderSettings & render, bool isTranslucent, bool areFewer, bool hasLabels, DrawnTriangles triangles)
 {
   constexpr double fewOfPixel = 3.0; // triangles that views need
+  constexpr int defaultSide = 1200;
   if (areFewer)
   {
+    const auto sideOf = [](int side) { return side > 0 ? side : defaultSide; };
     triangles.least = 0.0;
-    triangles.likely = std::min(triangles.likely, fewOfPixel * render.width * render.height);
+    triangles.likely = std::min(triangles.likely, fewOfPixel * sideOf(render.width) * sideOf(render.height));
   }
   SurfaceRenderer::CheckMemory(render, isTranslucent, triangles.least);
   RenderSettings unlimited = render;

@@ -35,10 +35,10 @@ MakeMask(const itk::Size<3> & size, const TInside & inside)
 
 /** Smooth blobs, with noise on them. */
 MaskType::Pointer
-MakeBlobs(unsigned int seed)
+MakeBlobs(unsigned int seed, const itk::Size<3> & size = { { 37, 29, 23 } })
 {
   std::mt19937 random(seed);
-  return MakeMask({ { 37, 29, 23 } }, [&](const Index & index) {
+  return MakeMask(size, [&](const Index & index) {
     const double wave = std::sin(0.4 * static_cast<double>(index[0])) + std::cos(0.5 * static_cast<double>(index[1])) +
                         std::sin(0.6 * static_cast<double>(index[2]));
     return wave + 0.01 * static_cast<double>(random() % 100) > 1.2;
@@ -157,11 +157,33 @@ TEST(AntiAliasMask, SpursGoAndBridgesStay)
 
 TEST(AntiAliasMask, HasTheSameBytesForAnyNumberOfThreads)
 {
-  const auto mask = MakeBlobs(2);
+  const auto mask = MakeBlobs(2, { { 37, 29, 120 } });
   const auto one = MakeField(mask, 1);
   const auto many = MakeField(mask, 7);
   const auto bytes = one->GetBufferedRegion().GetNumberOfPixels() * sizeof(float);
   EXPECT_EQ(std::memcmp(one->GetBufferPointer(), many->GetBufferPointer(), bytes), 0);
+}
+
+TEST(AntiAliasMask, TheFieldMovesWithTheMask)
+{
+  // Planes are smoothed some at a time: the same mask lies otherwise among them.
+  constexpr itk::SizeValueType depth = 130;
+  const auto blobs = MakeBlobs(3, { { 37, 29, depth } });
+  const auto shifted = [&](itk::IndexValueType planes) {
+    return MakeMask({ { 37, 29, depth + 80 } }, [&](const Index & index) {
+      const Index before{ { index[0], index[1], index[2] - planes } };
+      return before[2] >= 0 && blobs->GetBufferedRegion().IsInside(before) && blobs->GetPixel(before) != 0;
+    });
+  };
+  const auto field = MakeField(shifted(20));
+  for (const itk::IndexValueType planes : { 31, 37, 52 })
+  {
+    const auto moved = MakeField(shifted(planes));
+    ForEachVoxel(*blobs, *field, [&](const Index & index, std::uint8_t, float) {
+      const Index there{ { index[0], index[1], index[2] + planes } };
+      EXPECT_EQ(moved->GetPixel(there), field->GetPixel({ { index[0], index[1], index[2] + 20 } })) << there;
+    });
+  }
 }
 
 TEST(AntiAliasMask, WhereItIsNeededTheFieldIsThatOfTheWholeMask)

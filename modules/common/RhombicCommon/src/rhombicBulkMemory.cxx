@@ -79,9 +79,9 @@ AllocateBulk(std::size_t bytes)
   {
     return NotNull(std::malloc(bytes));
   }
-  // Aligned blocks leave holes that glibc before 2.38 does not fill with others of the same size; from 32 MiB on they
-  // are pages of their own.
-  constexpr std::size_t smallestAligned = std::size_t{ 1 } << 25;
+  // Aligned blocks leave holes that glibc before 2.38 does not fill with others of the same size: only the large blocks
+  // of a mesh, which are few, are aligned.
+  constexpr std::size_t smallestAligned = std::size_t{ 1 } << 24;
   constexpr std::size_t hugePage = std::size_t{ 1 } << 21;
   void * const block =
     NotNull(bytes < smallestAligned ? std::malloc(bytes)

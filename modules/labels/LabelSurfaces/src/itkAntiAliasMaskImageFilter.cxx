@@ -50,6 +50,7 @@ constexpr float Lost = 0.03f;      // voxels: depth on the wrong side
 constexpr float TubeRadius = 0.6f; // voxels
 constexpr SizeValueType LargestSpur = 2;
 constexpr SizeValueType SmallestSheet = 16;
+constexpr SizeValueType PlanesTogether = 32; // that Gaussians go through
 constexpr unsigned int Passes = Wide.corrections + Medium.corrections + Fine.corrections + 5;
 
 /** The form of the part of its class that a voxel belongs to. */
@@ -83,7 +84,7 @@ struct MaskWork
   std::array<SizeValueType, 3> size;
   const std::uint8_t * mask;
   float * field;
-  float * scratch; ///< for each voxel, rows having RowArithmetic::PaddedLength()
+  float * scratch; ///< for the voxels of the planes that Smooth() keeps, rows having RowArithmetic::PaddedLength()
   double widening; ///< of all Gaussians
 
   SizeValueType
@@ -361,7 +362,7 @@ SmoothPlane(const MaskWork & work,
 void
 Smooth(const MaskWork & work, const GaussianInBand & gaussian, const RowReader & read, const RowWriter & write)
 {
-  constexpr SizeValueType planes = 32;
+  constexpr SizeValueType planes = PlanesTogether;
   const std::vector<float> & weights = gaussian.weights;
   const SizeValueType reach = weights.size() / 2;
   const SizeValueType height = work.size[1];
@@ -888,8 +889,11 @@ AntiAliasMaskImageFilter::GenerateData()
   this->GetOutput()->SetBufferedRegion(this->GetOutput()->GetRequestedRegion());
   AllocateInBulk(*this->GetOutput());
   const auto & size = this->GetOutput()->GetBufferedRegion().GetSize();
+  const double widening = FindWidening(m_SamplePeriod);
+  const SizeValueType widestReach = GaussianWeights(widening * Wide.sigma).size() / 2;
+  const SizeValueType scratchPlanes = std::min(size[2], PlanesTogether + 2 * widestReach);
   const VoxelArray<float> scratch =
-    MakeVoxelArray<float>(RowArithmetic::PaddedLength(size[0]) * size[1] * size[2], false);
+    MakeVoxelArray<float>(RowArithmetic::PaddedLength(size[0]) * size[1] * scratchPlanes, false);
   const auto longestPeriod = *std::max_element(m_SamplePeriod.begin(), m_SamplePeriod.end());
   WorkProgress progress(*this, Passes * (size[1] + size[2]));
   const MaskWork work{ *this,
@@ -899,7 +903,7 @@ AntiAliasMaskImageFilter::GenerateData()
                        this->GetInput()->GetBufferPointer(),
                        this->GetOutput()->GetBufferPointer(),
                        scratch.get(),
-                       FindWidening(m_SamplePeriod) };
+                       widening };
 
   const VoxelBand border = FindBorder(work);
   const auto reach = static_cast<SizeValueType>(std::ceil(BandWidth * work.widening * Wide.sigma));

@@ -182,7 +182,7 @@ std::string
 AdviseSize(const RenderSettings & settings, double bytes, double bytesOfPixel)
 {
   const double pixels = static_cast<double>(settings.width) * static_cast<double>(settings.height);
-  const double scale = std::sqrt(std::max(bytes, 0.0) / bytesOfPixel / pixels);
+  const double scale = std::min(1.0, std::sqrt(std::max(bytes, 0.0) / bytesOfPixel / pixels));
   const auto width = static_cast<int>(settings.width * scale);
   const auto height = static_cast<int>(settings.height * scale);
   return width < 1 || height < 1 ? ""

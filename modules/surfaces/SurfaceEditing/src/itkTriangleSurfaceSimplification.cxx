@@ -738,7 +738,12 @@ private:
   IsStillNear(TriangleId id)
   {
     const std::lock_guard<std::mutex> lock(m_ProofsMutex);
-    const ProximityProof & proof = m_Proofs[id];
+    const auto found = m_Proofs.find(id);
+    if (found == m_Proofs.end())
+    {
+      return false;
+    }
+    const ProximityProof & proof = found->second;
     const auto * const end = proof.triangles.data() + std::min(proof.size, ProximityProof::MostTriangles);
     return proof.size > 0 && proof.IsComplete() &&
            std::all_of(proof.triangles.data(), end, [this](VersionId version) { return m_IsPresent[version] != 0; });
