@@ -78,6 +78,7 @@ public:
   void
   Put(const MeshEstimate & mesh, const ScanSource & source, const Events & events);
 
+  /** Labels are always put there. */
   void
   Put(const LabelWork & labels, const ScanSource & source, const Events & events);
 
