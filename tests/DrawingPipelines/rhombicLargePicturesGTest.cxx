@@ -1,5 +1,5 @@
-#include "rhombicFailure.h"
 #include "rhombicLabelScan.h"
+#include "rhombicMemoryRefusal.h"
 #include "rhombicPictureSteps.h"
 #include "rhombicRenderScan.h"
 #include "rhombicScanWriter.h"
@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <functional>
 #include <random>
 #include <sstream>
 
@@ -131,22 +130,6 @@ protected:
   rhombictest::TemporaryFolder m_Folder;
 };
 
-/** The sentence of a Failure(Memory). */
-std::string
-RefusalOf(const std::function<void()> & work)
-{
-  try
-  {
-    work();
-  }
-  catch (const rhombic::Failure & failure)
-  {
-    EXPECT_EQ(failure.GetKind(), rhombic::FailureKind::Memory);
-    return failure.GetDescription();
-  }
-  return "no exception";
-}
-
 } // namespace
 
 TEST_F(LargePictures, SlicesAreTheSameByTemporaryFiles)
@@ -196,13 +179,13 @@ TEST_F(LargePictures, WhatDoesNotFitIsRefusedBeforeTheWork)
     rhombic::RenderScanSettings settings = areLabels ? this->PicturesOfLabels(Little) : this->PicturesOfNoise(Little);
     const auto plan = [&settings] { PlanRenderScan(settings, {}); };
     settings.views = { {} };
-    std::string sentence = RefusalOf(plan);
+    std::string sentence = rhombictest::MemoryRefusal(plan);
     EXPECT_EQ(sentence.rfind("A picture of 300 x 300 pixels would need", 0), 0u) << sentence;
     settings.views = {};
     settings.source.scan.read.temporaryFolder = m_Folder.Path() / "none";
-    sentence = RefusalOf(plan);
+    sentence = rhombictest::MemoryRefusal(plan);
     EXPECT_NE(sentence.find("their arrays are too large for the memory"), std::string::npos) << sentence;
-    EXPECT_EQ(RefusalOf([&] { this->Draw(settings); }), sentence);
+    EXPECT_EQ(rhombictest::MemoryRefusal([&] { this->Draw(settings); }), sentence);
     EXPECT_FALSE(fs::exists(settings.picture));
   }
 }

@@ -1,5 +1,6 @@
 #include "rhombicFailure.h"
 #include "rhombicMappedVoxels.h"
+#include "rhombicMemoryRefusal.h"
 #include "rhombicMemoryPlan.h"
 #include "rhombicMeshScan.h"
 #include "rhombicNIfTITestFile.h"
@@ -737,60 +738,41 @@ TEST_F(LargeScan, MeshesBeyondTheMemoryAreRefusedBeforeWorkThatNeedsThemThere)
   const fs::path path = this->WriteNoise(60);
   rhombic::MeshScanSettings settings = this->SettingsOf(path, 10'000'000);
   settings.surfaces.requests.front().parts = rhombic::SurfaceRequest::Parts::Outermost;
-  const auto sentenceOf = [](const auto & work) -> std::string {
-    try
-    {
-      work();
-    }
-    catch (const rhombic::Failure & failure)
-    {
-      EXPECT_EQ(failure.GetKind(), rhombic::FailureKind::Memory);
-      return failure.GetDescription();
-    }
-    return "no exception";
-  };
   const auto plan = [&] { rhombic::PlanMeshScan(settings, {}); };
   const auto mesh = [&] { this->Mesh(settings); };
-  const std::string sentence = sentenceOf(plan);
+  const std::string sentence = rhombictest::MemoryRefusal(plan);
   EXPECT_NE(sentence.find("Making surfaces of some 0.69 million"), std::string::npos) << sentence;
   EXPECT_NE(sentence.find("use a coarser lattice with --density 0.0"), std::string::npos) << sentence;
-  EXPECT_EQ(sentenceOf(mesh), sentence);
+  EXPECT_EQ(rhombictest::MemoryRefusal(mesh), sentence);
   EXPECT_FALSE(fs::exists(settings.mesh));
   settings.source.lattice.denoising = { rhombic::Denoising::Kind::Gaussian, 1.5, 0.0 };
-  EXPECT_EQ(sentenceOf(mesh), "no exception"); // of which little is left
+  EXPECT_EQ(rhombictest::MemoryRefusal(mesh), "no exception"); // of which little is left
   settings.source = this->SourceOf(path, Plenty);
-  EXPECT_EQ(sentenceOf(plan), "no exception");
+  EXPECT_EQ(rhombictest::MemoryRefusal(plan), "no exception");
 }
 
 TEST_F(LargeScan, MeshesBeyond32BitsAreRefusedBeforeTheWork)
 {
   rhombic::MeshScanSettings settings = this->SettingsOf("none.nii", Bytes(1) << 60);
-  const auto sentenceOf = [&settings](double triangles) -> std::string {
-    try
-    {
+  const auto sentenceOf = [&settings](double triangles) {
+    return rhombictest::MemoryRefusal([&] {
       rhombic::MeshEstimate mesh;
       mesh.triangles = triangles;
       CheckMesh(mesh, settings);
-    }
-    catch (const rhombic::Failure & failure)
-    {
-      EXPECT_EQ(failure.GetKind(), rhombic::FailureKind::Memory);
-      return failure.GetDescription();
-    }
-    return "";
+    });
   };
-  EXPECT_EQ(sentenceOf(4.2e9), "");
+  EXPECT_EQ(sentenceOf(4.2e9), "no exception");
   EXPECT_EQ(sentenceOf(5e9),
             "The surfaces would have some 5000 million triangles, and 32-bit numbers of points and triangles reach for "
             "some 4295 million triangles; simplify them with --max-triangles, or use a coarser lattice with --density "
             "0.58, another threshold or a part of the scan.");
   settings.finish.maximumTriangles = 1000;
-  EXPECT_EQ(sentenceOf(5e9), "");
+  EXPECT_EQ(sentenceOf(5e9), "no exception");
   EXPECT_NE(sentenceOf(9e9).find("some 8590 million triangles; use a coarser lattice"), std::string::npos)
     << sentenceOf(9e9);
   settings.finish = {};
   settings.mesh = "mesh.glb";
-  EXPECT_EQ(sentenceOf(1.7e8), "");
+  EXPECT_EQ(sentenceOf(1.7e8), "no exception");
   EXPECT_NE(sentenceOf(2e8).find("of lengths in GLB files reach for some 179 million triangles; simplify them with "
                                  "--max-triangles, write a .ply or .vtp"),
             std::string::npos)

@@ -1,7 +1,7 @@
 #include "rhombicBulkMemory.h"
 #include "rhombicBulkResource.h"
 
-#include "rhombicFailure.h"
+#include "rhombicMemoryRefusal.h"
 #include "rhombicTemporaryFolder.h"
 
 #include <gtest/gtest.h>
@@ -134,17 +134,8 @@ TEST(BulkMemory, BlocksThatComeAndGoLeaveNoHoles)
 TEST(BulkMemory, FoldersWithoutRoomAreRefusedInWords)
 {
   const rhombictest::TemporaryFolder folder;
-  const auto sentenceOf = [](const std::filesystem::path & path, std::uintmax_t size) -> std::string {
-    try
-    {
-      rhombic::RequireRoom({ path, "Cannot do this: the blocks" }, size);
-    }
-    catch (const rhombic::Failure & failure)
-    {
-      EXPECT_EQ(failure.GetKind(), rhombic::FailureKind::Memory);
-      return failure.GetDescription();
-    }
-    return "no exception";
+  const auto sentenceOf = [](const std::filesystem::path & path, std::uintmax_t size) {
+    return rhombictest::MemoryRefusal([&] { rhombic::RequireRoom({ path, "Cannot do this: the blocks" }, size); });
   };
   const std::string begin = "Cannot do this: the blocks are too large for the memory that is allowed, and can't be put "
                             "into temporary files in ";
