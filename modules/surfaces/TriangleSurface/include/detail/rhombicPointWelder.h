@@ -13,7 +13,7 @@ namespace rhombic
 /** \class PointWelder
  * \brief Gives equal points the same index; 0 and -0 are equal.
  *
- * A hash table with open addressing: 4 bytes per slot, two to four slots per point. */
+ * A hash table with open addressing: 4 bytes per slot, two to four slots per point, or per expected point. */
 class PointWelder
 {
 public:
