@@ -299,6 +299,8 @@ TEST_F(RenderCommand, AReportOfBeforeMakesItsPictureAgain)
   EXPECT_FALSE(fs::exists(m_Folder.Path() / "second.dcm"));
 }
 
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // which keep memory for themselves
+
 /** Runs the program on two threads. Returns the most memory that it had, in MiB. */
 double
 FindPeakMemory(std::vector<std::string> arguments)
@@ -338,6 +340,8 @@ TEST_F(RenderCommand, InteractivePagesNeedNoMoreMemoryThanSheetsButForTheirSize)
   const double sizeOfPage = static_cast<double>(fs::file_size(m_Folder.Path() / "page.html")) / (1024.0 * 1024.0);
   EXPECT_LT(ofPage, ofSheet + sizeOfPage + ofMorePictures);
 }
+
+#endif
 
 TEST_F(RenderCommand, PagesListAllLabelsWithTheirVolumes)
 {
