@@ -2,8 +2,10 @@
 #include "itkFCCExtractors.h"
 #include "itkFCCLeanMarching.h"
 #include "itkFCCSplitSites.h"
+#include "rhombicForEachBlock.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace itk
 {
@@ -194,20 +196,25 @@ void
 FCCLeanExtractor::Finish(TriangleSurface & surface)
 {
   auto & triangles = surface.GetTriangles();
-  auto end = triangles.begin();
-  for (SizeValueType k = m_Begin; k < m_End; ++k)
-  {
-    const auto first = triangles.begin() + static_cast<std::ptrdiff_t>(this->PlaceOfTriangles(k));
-    const auto last = first + static_cast<std::ptrdiff_t>(m_Filled[k]);
-    end = first == end ? last : std::copy(first, last, end);
-  }
-  if (!m_Field.closed)
-  {
-    end = std::remove_if(triangles.begin(), end, [this](const TriangleSurface::TriangleType & triangle) {
-      return (m_AreOutside[triangle[0]] | m_AreOutside[triangle[1]] | m_AreOutside[triangle[2]]) != 0;
-    });
-  }
-  triangles.erase(end, triangles.end());
+  const auto ofPlane = [&](SizeValueType n) { return triangles.begin() + this->PlaceOfTriangles(m_Begin + n); };
+  std::vector<SizeValueType> places(m_End - m_Begin + 1, 0);
+  rhombic::ForEachInBlocks(m_End - m_Begin, 1, [&](SizeValueType n) {
+    const auto first = ofPlane(n);
+    auto last = first + m_Filled[m_Begin + n];
+    if (!m_Field.closed)
+    {
+      last = std::remove_if(first, last, [this](const TriangleSurface::TriangleType & triangle) {
+        return (m_AreOutside[triangle[0]] | m_AreOutside[triangle[1]] | m_AreOutside[triangle[2]]) != 0;
+      });
+    }
+    places[n + 1] = static_cast<SizeValueType>(last - first);
+  });
+  std::partial_sum(places.begin(), places.end(), places.begin());
+  TriangleSurface::TrianglesContainer joined(places.back());
+  rhombic::ForEachInBlocks(m_End - m_Begin, 1, [&](SizeValueType n) {
+    std::copy_n(ofPlane(n), places[n + 1] - places[n], joined.begin() + places[n]);
+  });
+  triangles.swap(joined);
 }
 
 } // namespace
