@@ -113,6 +113,10 @@ LoadSource(const ScanSource & source,
            std::optional<SourceVolume> volume,
            const Events & events);
 
+/** Throws Failure(Empty) for a label map without labels, where no other surfaces are asked for. */
+[[noreturn]] void
+RefuseEmptyMap(const LabelMapSource & source);
+
 /** Whether surfaces can be made of a lattice in slabs. */
 bool
 MayBeInSlabs(const std::vector<SurfaceRequest> & requests);

@@ -307,6 +307,10 @@ PlanLabelsBeside(const SurfacePlanning & planning, const UnreadSource & unread)
   loaded.requests = planning.surfaces.requests;
   loaded.labels = ReadLabelMap(planning.surfaces.labels->source, source.read, unread.file.scan, source.path);
   ApplySceneRules(planning.surfaces.rules, loaded.requests, &*loaded.labels);
+  if (loaded.labels->labels.empty() && loaded.requests.empty())
+  {
+    RefuseEmptyMap(planning.surfaces.labels->source);
+  }
   return loaded.labels->labels.empty() ? LabelPlan() : PlanWork(planning, loaded);
 }
 

@@ -92,6 +92,10 @@ TakeForLabels(Scan scan, const LabelMapSource & source, const Events & events)
     RefuseToChoose(source.GetFirstPath());
   }
   std::vector<LabelSummary> labels = FindLabels(scan, source);
+  if (labels.empty())
+  {
+    RefuseEmptyMap(source);
+  }
   events.Note(source.GetFirstPath().string() + " is a label map of " + Count(labels.size(), "label") +
               ", of which surfaces are made");
   return { std::move(scan), std::move(labels) };
@@ -222,9 +226,7 @@ PrepareScan(Scan volume, const ScanSource & source, const SurfaceSelection & sel
   {
     if (requests.empty())
     {
-      throw Failure(FailureKind::Empty,
-                    selection.labels->source.GetFirstPath().string() +
-                      " holds nothing but background; check that it was exported whole.");
+      RefuseEmptyMap(selection.labels->source);
     }
     loaded.labels.reset();
   }
@@ -339,6 +341,13 @@ LoadedSource::DropVolumes()
   stream = {};
   labels.reset();
   GiveBackFreedMemory();
+}
+
+void
+RefuseEmptyMap(const LabelMapSource & source)
+{
+  throw Failure(FailureKind::Empty,
+                source.GetFirstPath().string() + " holds nothing but background; check that it was exported whole.");
 }
 
 LoadedSource

@@ -707,6 +707,42 @@ TEST_F(LargeScan, LabelsBesideAScanArePlanned)
   EXPECT_THROW(rhombic::PlanMeshScan(settings, {}), rhombic::Failure);
 }
 
+TEST_F(LargeScan, MapsOfBackgroundArePlannedAsTheWorkIsDone)
+{
+  const auto map = itk::Image<std::uint8_t, 3>::New();
+  map->SetRegions(itk::Size<3>{ { 20, 20, 20 } });
+  map->Allocate(true);
+  const fs::path path = m_Folder.Path() / "background.nii";
+  rhombic::WriteScan(rhombic::ScanImage(map), path);
+  rhombic::MeshScanSettings settings;
+  settings.source = this->SourceOf(path, Plenty);
+  settings.mesh = m_Folder.Path() / "mesh.vtp";
+  settings.surfaces.labels.emplace();
+  const auto sentenceOf = [](const auto & work) -> std::string {
+    try
+    {
+      work();
+      return "not refused";
+    }
+    catch (const rhombic::Failure & failure)
+    {
+      return failure.GetDescription();
+    }
+  };
+  for (const std::vector<fs::path> & beside : { std::vector<fs::path>(), { path } })
+  {
+    settings.surfaces.labels->source.paths = beside;
+    const std::string sentence = path.string() + " holds nothing but background; check that it was exported whole.";
+    EXPECT_EQ(sentenceOf([&] { rhombic::PlanMeshScan(settings, {}); }), sentence);
+    EXPECT_EQ(sentenceOf([&] { this->Mesh(settings); }), sentence);
+  }
+  rhombic::SurfaceRequest request;
+  request.name = "air";
+  request.isovalue = -0.5;
+  settings.surfaces.requests = { request };
+  EXPECT_NO_THROW(rhombic::PlanMeshScan(settings, {}));
+}
+
 TEST_F(LargeScan, LabelsBeyondTheMemoryAreRefusedWithoutRoom)
 {
   rhombic::MeshScanSettings settings;
