@@ -190,14 +190,42 @@ private:
   Flags m_AreUnfolded;
 };
 
-/** Finds which of the marked points are unfolded, in place of the marks. */
-void
-FindUnfoldedOfMarked(const TriangleSurface & surface, const TrianglesOfPoints & fans, Flags & marks)
+/** \class UnfoldedCorners
+ * \brief Flags of the points at which the surface is not folded, of corners of added triangles only. */
+class UnfoldedCorners
 {
-  rhombic::ForEachInBlocks(marks.size(), BlockOfPoints, [&](std::size_t point) {
-    marks[point] = marks[point] != 0 && IsUnfoldedPoint(surface, fans, static_cast<std::uint32_t>(point));
-  });
-}
+public:
+  explicit UnfoldedCorners(const TriangleSurface & surface)
+    : m_Surface(surface)
+    , m_AreUnfolded(surface.GetNumberOfPoints(), 0)
+  {}
+
+  void
+  Add(std::uint32_t triangle)
+  {
+    for (const std::uint32_t corner : m_Surface.GetTriangles()[triangle])
+    {
+      if (std::exchange(m_AreUnfolded[corner], std::uint8_t{ 1 }) == 0)
+      {
+        m_Corners.push_back(corner);
+      }
+    }
+  }
+
+  Flags
+  Find(const TrianglesOfPoints & fans) &&
+  {
+    rhombic::ForEachInBlocks(m_Corners.size(), BlockOfPoints, [&](std::size_t n) {
+      m_AreUnfolded[m_Corners[n]] = IsUnfoldedPoint(m_Surface, fans, m_Corners[n]);
+    });
+    return std::move(m_AreUnfolded);
+  }
+
+private:
+  const TriangleSurface & m_Surface;
+  Flags m_AreUnfolded;
+  BulkVector<std::uint32_t> m_Corners;
+};
 
 /** The triangles of a tree that cross others of it, or are in another contact of at least that kind, ascending. */
 BulkVector<std::uint32_t>
@@ -274,8 +302,10 @@ FindCrossingAtEdges(const TriangleSurface & surface,
 Flags
 FindUnfoldedPoints(const TriangleSurface & surface, const TrianglesOfPoints & fans)
 {
-  Flags areUnfolded(surface.GetNumberOfPoints(), 1);
-  FindUnfoldedOfMarked(surface, fans, areUnfolded);
+  Flags areUnfolded(surface.GetNumberOfPoints());
+  rhombic::ForEachInBlocks(areUnfolded.size(), BlockOfPoints, [&](std::size_t point) {
+    areUnfolded[point] = IsUnfoldedPoint(surface, fans, static_cast<std::uint32_t>(point));
+  });
   return areUnfolded;
 }
 
@@ -320,20 +350,20 @@ FindCrossingTriangles(const TriangleTree & tree,
                       rhombic::StagedProgress * progress,
                       double stageEnd)
 {
-  Flags areUnfolded(tree.GetSurface().GetNumberOfPoints()); // of corners of the tree's triangles
-  const bool isWhole = tree.GetNumberOfPlacedTriangles() == tree.GetSurface().GetNumberOfTriangles();
-  std::fill(areUnfolded.begin(), areUnfolded.end(), std::uint8_t{ isWhole });
-  for (std::size_t leaf = 0; leaf < tree.GetNumberOfLeaves() && !isWhole; ++leaf)
-  {
-    for (const std::uint32_t triangle : tree.GetLeaf(leaf))
+  const TriangleSurface & surface = tree.GetSurface();
+  const auto findUnfoldedCorners = [&] {
+    UnfoldedCorners corners(surface);
+    for (std::size_t leaf = 0; leaf < tree.GetNumberOfLeaves(); ++leaf)
     {
-      for (const std::uint32_t corner : tree.GetSurface().GetTriangles()[triangle])
+      for (const std::uint32_t triangle : tree.GetLeaf(leaf))
       {
-        areUnfolded[corner] = 1;
+        corners.Add(triangle);
       }
     }
-  }
-  FindUnfoldedOfMarked(tree.GetSurface(), fans, areUnfolded);
+    return std::move(corners).Find(fans);
+  };
+  const bool isWhole = tree.GetNumberOfPlacedTriangles() == surface.GetNumberOfTriangles();
+  Flags areUnfolded = isWhole ? FindUnfoldedPoints(surface, fans) : findUnfoldedCorners();
   rhombic::StagedProgress silent({});
   return FindAllCrossing(tree, std::move(areUnfolded), least, progress == nullptr ? silent : *progress, stageEnd);
 }
@@ -345,17 +375,13 @@ FindCrossingTriangles(const TriangleTree & tree,
                       Contact least)
 {
   const TriangleSurface & surface = tree.GetSurface();
-  Flags areUnfolded(surface.GetNumberOfPoints(), 0); // none but corners of candidates
+  UnfoldedCorners corners(surface);
   for (const std::uint32_t candidate : candidates)
   {
-    for (const std::uint32_t corner : surface.GetTriangles()[candidate])
-    {
-      areUnfolded[corner] = 1;
-    }
+    corners.Add(candidate);
   }
-  FindUnfoldedOfMarked(surface, fans, areUnfolded);
   const TriangleTree ofCandidates(surface, candidates);
-  const ContactSearch search(ofCandidates, std::move(areUnfolded), TrianglesOfSample);
+  const ContactSearch search(ofCandidates, std::move(corners).Find(fans), TrianglesOfSample);
   return CollectIds(search.GetNumberOfParts(), PartsOfBlock, [&](std::size_t begin, std::size_t end, auto & found) {
     TriangleNeighborhood near(tree.GetSurface());
     for (std::size_t part = begin; part < end; ++part)
