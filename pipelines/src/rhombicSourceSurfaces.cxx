@@ -139,6 +139,7 @@ AddLabels(const SurfaceMaking & making, const LoadedSource & loaded, std::vector
     }
     surface.scene = std::exchange(mesh.labels[n].scene, {});
     surface.label = std::move(mesh.labels[n]);
+    surface.scene.layer = surface.label->layer;
     surface.extracted = extracted[n];
     surface.refinement = isForFiles ? refinements[surface.label->layer] : Refinement();
   }

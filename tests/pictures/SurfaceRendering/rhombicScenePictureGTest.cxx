@@ -764,6 +764,46 @@ TEST_F(ScenePicture, OfSurfacesInOnePlaceTheFirstIsSeen)
   }
 }
 
+TEST_F(ScenePicture, LaterLayersGiveWayToEarlierOnesThatLieLittleBehindThem)
+{
+  const auto back = Item(Box({ -40, 0, -40 }, { 40, 50, 40 }), Red);
+  RenderSettings settings = Plain();
+  settings.pixelSize = 0.6;
+  for (const double nearer : { 0.03, 0.2, 0.4, 0.8, 2.0 })
+  {
+    auto front = Item(Box({ -21, -nearer, -23 }, { 22, 30, 27 }), Green);
+    for (const std::size_t layer : { 0, 1 })
+    {
+      front.layer = layer;
+      for (const View & view : { View(), ObliqueView(10, 10) })
+      {
+        const auto rendered = m_Renderer.Render({ { back, front }, {}, {} }, settings, { view }).front();
+        const auto at = rendered.projection->PositionOf({ 0.0, 0.0, 0.0 });
+        const auto * const pixel = rendered.picture.At(static_cast<int>(at.x), static_cast<int>(at.y));
+        EXPECT_EQ(pixel[0] > pixel[1], layer == 1 && nearer < 0.6) << view.name << ": " << nearer << ", " << layer;
+      }
+    }
+  }
+}
+
+TEST_F(ScenePicture, LaterLayersOfFlatScenesAreNotLost)
+{
+  const auto first = Item(Box({ -40, 0, -40 }, { -5, 0.3, 40 }), Red);
+  auto later = Item(Box({ 5, 0.1, -40 }, { 40, 0.3, 40 }), Green);
+  for (const bool perspective : { false, true })
+  {
+    RenderSettings settings = Plain();
+    settings.perspective = perspective;
+    const Picture without = Draw(m_Renderer, { first, later }, settings);
+    for (const std::size_t layer : { 1, 4, 100 })
+    {
+      later.layer = layer;
+      EXPECT_EQ(Draw(m_Renderer, { first, later }, settings).pixels == without.pixels, true) << layer;
+    }
+    later.layer = 0;
+  }
+}
+
 // Backs of triangles
 
 TEST_F(ScenePicture, HiddenBacksOfClosedSurfacesAreNotMissed)

@@ -1,5 +1,7 @@
 #include "rhombicActorBuffers.h"
 
+#include "vtkRhombicOpaquePass.h"
+
 #include <vtkActor.h>
 #include <vtkImageData.h>
 #include <vtkMatrix4x4.h>
@@ -26,10 +28,6 @@ namespace rhombic
 {
 namespace
 {
-
-/** Of a unit of polygon offset, in OpenGL's depths, -1 to 1: some times the rounding errors of 32 bits, less than 0.001
- * mm in 500 mm. */
-constexpr float BackwardStep = 2e-6f;
 
 /** Numbers of actors in a byte, from 1; 0 is the background. */
 float
@@ -340,7 +338,7 @@ ActorBuffers::SetUniforms(const Drawing & drawing, const FragmentLists * lists, 
   double factor = 0.0;
   double units = 0.0;
   drawing.actor->GetMapper()->GetRelativeCoincidentTopologyPolygonOffsetParameters(factor, units);
-  program->SetUniformf("backward", BackwardStep * static_cast<float>(units));
+  program->SetUniformf("backward", static_cast<float>(vtkRhombicOpaquePass::OffsetUnit * units));
   if (lists)
   {
     lists->SetUniforms(program);

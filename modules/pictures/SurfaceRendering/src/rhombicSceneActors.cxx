@@ -6,6 +6,7 @@
 #include "vtkRhombicSurfacePass.h"
 
 #include <vtkActor.h>
+#include <vtkActorCollection.h>
 #include <vtkAutoInit.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
@@ -46,7 +47,7 @@ ShareColours(const PointColours & colours)
 }
 
 vtkSmartPointer<vtkActor>
-MakeSurfaceActor(const SceneSurface & item, std::size_t number, const std::vector<ClipPlane> & cuts)
+MakeSurfaceActor(const SceneSurface & item, const std::vector<ClipPlane> & cuts)
 {
   const vtkNew<vtkPolyDataMapper> mapper;
   const auto data = SurfaceToPolyData(item.surface);
@@ -57,8 +58,6 @@ MakeSurfaceActor(const SceneSurface & item, std::size_t number, const std::vecto
     data->GetPointData()->SetScalars(ShareColours(*item.pointColours));
     mapper->SetColorModeToDirectScalars();
   }
-  const auto backward = static_cast<double>(std::min<std::size_t>(number, 100)); // so that the first is seen
-  mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, backward);
   for (const ClipPlane & cut : cuts)
   {
     if (IsCut(item, cut))
@@ -125,6 +124,31 @@ MakePlaneActor(const ScenePlane & plane)
   return actor;
 }
 
+/** How many pixels a surface is moved away from the viewer, so that surfaces of earlier layers are seen instead. */
+double
+PixelsBehind(const SceneSurface & item)
+{
+  constexpr std::size_t mostLayers = 5;
+  return static_cast<double>(std::min(item.layer, mostLayers));
+}
+
+/** Moves surfaces away from the viewer, so that the first of those in one place is seen: by steps far below a pixel,
+ * and by their layers.
+ * \param pixelOverDepth width of a pixel over the depth between the clipping planes */
+void
+OffsetSurfaces(const std::vector<SceneSurface> & surfaces, double pixelOverDepth, vtkActorCollection * actors)
+{
+  constexpr std::size_t mostSteps = 100;
+  constexpr double wholeDepth = 2.0 / vtkRhombicOpaquePass::OffsetUnit; // in units
+  actors->InitTraversal();
+  for (std::size_t n = 0; n < surfaces.size(); ++n)
+  {
+    const auto step = static_cast<double>(std::min(n, mostSteps));
+    actors->GetNextActor()->GetMapper()->SetRelativeCoincidentTopologyPolygonOffsetParameters(
+      0.0, step + PixelsBehind(surfaces[n]) * pixelOverDepth * wholeDepth);
+  }
+}
+
 /** Whether a surface has colours of points, which are drawn without light: by the pass only with a renderer's lights.
  */
 bool
@@ -142,9 +166,9 @@ MakeRenderer(const Scene & scene, const RenderSettings & settings)
   auto renderer = vtkSmartPointer<vtkRenderer>::New();
   renderer->GetCullers()->RemoveAllItems();
   renderer->SetActiveCamera(vtkNew<vtkCamera>()); // one of VTK's own would be fitted to all actors, which takes time
-  for (std::size_t number = 0; number < scene.surfaces.size(); ++number)
+  for (const SceneSurface & item : scene.surfaces)
   {
-    renderer->AddActor(MakeSurfaceActor(scene.surfaces[number], number, scene.cuts));
+    renderer->AddActor(MakeSurfaceActor(item, scene.cuts));
   }
   for (const ScenePlane & plane : scene.planes)
   {
@@ -168,7 +192,7 @@ MakeRenderer(const Scene & scene, const RenderSettings & settings)
 }
 
 void
-SetCamera(const Camera & camera, vtkRenderer * renderer)
+SetCamera(const Camera & camera, const Scene & scene, vtkRenderer * renderer)
 {
   const bool isParallel = camera.spread == 0.0;
   const double distance = isParallel ? std::max(1.0, 1.0 - camera.nearest) : 1.0 / camera.spread;
@@ -182,7 +206,14 @@ SetCamera(const Camera & camera, vtkRenderer * renderer)
   seen->SetParallelScale(reach);
   seen->SetViewAngle(isParallel ? 30.0 : 2.0 * std::atan(reach / distance) * Degrees);
   seen->SetWindowCenter(-2.0 * camera.rightward / camera.width, -2.0 * camera.upward / camera.height);
-  seen->SetClippingRange(distance + camera.nearest, distance + camera.farthest);
+  double farthest = camera.farthest;
+  for (const SceneSurface & item : scene.surfaces)
+  {
+    constexpr double room = 2.0; // as units are longer far away in perspective
+    farthest = std::max(farthest, camera.farthest + room * PixelsBehind(item) * camera.pixelSize);
+  }
+  seen->SetClippingRange(distance + camera.nearest, distance + farthest);
+  OffsetSurfaces(scene.surfaces, camera.pixelSize / (farthest - camera.nearest), renderer->GetActors()); // come first
 }
 
 } // namespace rhombic

@@ -16,9 +16,9 @@ namespace rhombic
 vtkSmartPointer<vtkRenderer>
 MakeRenderer(const Scene & scene, const RenderSettings & settings);
 
-/** Gives a renderer the camera of a picture; its window has the size of the picture. */
+/** Gives a renderer of MakeRenderer() the camera of a picture; its window has the size of the picture. */
 void
-SetCamera(const Camera & camera, vtkRenderer * renderer);
+SetCamera(const Camera & camera, const Scene & scene, vtkRenderer * renderer);
 
 } // namespace rhombic
 

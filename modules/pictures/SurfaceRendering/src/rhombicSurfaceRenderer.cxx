@@ -156,7 +156,7 @@ public:
     for (const Camera & camera : cameras)
     {
       m_Window->SetSize(camera.width, camera.height);
-      SetCamera(camera, renderer);
+      SetCamera(camera, scene, renderer);
       m_Window->Render();
       RenderedView view{ ReadPicture(settings),
                          settings.perspective ? std::nullopt : std::optional(camera.ToProjection()) };
