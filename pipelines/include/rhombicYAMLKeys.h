@@ -4,9 +4,11 @@
 #include "rhombicWording.h"
 
 #include <nlohmann/json.hpp>
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <sstream>
 #include <stdexcept>
 #include <set>
 #include <string>
@@ -39,6 +41,42 @@ FindForbiddenInYAML(const std::string & text)
   return text.size();
 }
 
+/** Takes what a YAML::Parser finds, and does nothing. */
+class IgnoredYAMLEvents : public YAML::EventHandler
+{
+  using Mark = YAML::Mark;
+  using Anchor = YAML::anchor_t;
+  using Style = YAML::EmitterStyle::value;
+
+  void
+  OnDocumentStart(const Mark &) override
+  {}
+  void
+  OnDocumentEnd() override
+  {}
+  void
+  OnNull(const Mark &, Anchor) override
+  {}
+  void
+  OnAlias(const Mark &, Anchor) override
+  {}
+  void
+  OnScalar(const Mark &, const std::string &, Anchor, const std::string &) override
+  {}
+  void
+  OnSequenceStart(const Mark &, const std::string &, Anchor, Style) override
+  {}
+  void
+  OnSequenceEnd() override
+  {}
+  void
+  OnMapStart(const Mark &, const std::string &, Anchor, Style) override
+  {}
+  void
+  OnMapEnd() override
+  {}
+};
+
 /** Parses YAML of one document, which is text in UTF-8 without control characters. Throws YAMLMistake for others, and
  * YAML::Exception. yaml-cpp would leave out what is behind the first document. */
 inline YAML::Node
@@ -58,12 +96,15 @@ LoadYAML(const std::string & text)
     throw YAMLMistake("has a control character in line " +
                       std::to_string(1 + std::count(text.begin(), forbidden, '\n')));
   }
-  const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-  if (documents.size() > 1 || text.find("\n%") != std::string::npos)
+  std::istringstream stream(text); // YAML::LoadAll() would never end for ",a\n%a"
+  YAML::Parser parser(stream);
+  IgnoredYAMLEvents ignored;
+  const bool isEmpty = !parser.HandleNextDocument(ignored);
+  if (text.find("\n%") != std::string::npos || (!isEmpty && parser.HandleNextDocument(ignored)))
   {
     throw YAMLMistake("has more than one document");
   }
-  return documents.empty() ? YAML::Node() : documents.front();
+  return isEmpty ? YAML::Node() : YAML::Load(text);
 }
 
 /** Throws YAMLMistake for a node that is no map, for a key that is there twice, and for one that \a known does not

@@ -164,7 +164,11 @@ TEST(Presets, RefuseDamagedFiles)
                              "name: x\nsurfaces: [{name: a, isovalue: 1}]\n---\nname: y\n",
                              "name: x\nsurfaces: [{name: a, isovalue: 1}]\n%u",
                              "{name: x, surfaces: [{name: a, isovalue: 1}]} rules: []",
-                             "name: [x\n" })
+                             "name: [x\n",
+                             ",a\n%a", // documents without end for yaml-cpp
+                             ",",
+                             "name: x\nsurfaces: [{name: a, isovalue: 1}]\n,",
+                             "]" })
   {
     const auto sentence =
       DescriptionOfFailure([yaml] { rhombic::ParsePreset(yaml, "broken.yaml"); }, FailureKind::Unreadable);
