@@ -81,6 +81,22 @@ AddIsosurfaces(const SurfaceMaking & making,
   }
 }
 
+/** Of each layer of labels, how many layers have fewer millilitres: a lesion is seen on the organ that it is in. */
+std::vector<std::size_t>
+RankLayers(const LabelMesh & mesh)
+{
+  std::vector<double> volumes(mesh.walls.size());
+  for (const LabelSurface & label : mesh.labels)
+  {
+    volumes[label.layer] += label.voxelMillilitres;
+  }
+  std::vector<std::size_t> ranks;
+  std::transform(volumes.begin(), volumes.end(), std::back_inserter(ranks), [&volumes](double volume) {
+    return std::count_if(volumes.begin(), volumes.end(), [volume](double other) { return other < volume; });
+  });
+  return ranks;
+}
+
 void
 AddLabels(const SurfaceMaking & making, const LoadedSource & loaded, std::vector<MeshedSurface> & surfaces)
 {
@@ -113,6 +129,8 @@ AddLabels(const SurfaceMaking & making, const LoadedSource & loaded, std::vector
   {
     ExtractSurfaces(mesh);
   }
+  const auto & edges = GeometryOf(loaded.labels->scan.image).GetSpacing();
+  const double shortest = std::min({ edges[0], edges[1], edges[2] });
   std::vector<SceneSurface> forDrawing;
   if (!isForFiles && !making.part)
   {
@@ -127,9 +145,9 @@ AddLabels(const SurfaceMaking & making, const LoadedSource & loaded, std::vector
     {
       forDrawing.push_back(label.scene);
     }
-    const auto & edges = GeometryOf(loaded.labels->scan.image).GetSpacing();
-    forDrawing = InFewerTriangles(forDrawing, unseen * std::min({ edges[0], edges[1], edges[2] }));
+    forDrawing = InFewerTriangles(forDrawing, unseen * shortest);
   }
+  const std::vector<std::size_t> ranks = RankLayers(mesh);
   for (std::size_t n = 0; n < mesh.labels.size(); ++n)
   {
     MeshedSurface & surface = surfaces.emplace_back();
@@ -139,7 +157,8 @@ AddLabels(const SurfaceMaking & making, const LoadedSource & loaded, std::vector
     }
     surface.scene = std::exchange(mesh.labels[n].scene, {});
     surface.label = std::move(mesh.labels[n]);
-    surface.scene.layer = surface.label->layer;
+    surface.scene.layer = ranks[surface.label->layer];
+    surface.scene.layerGap = 0.25 * shortest; // as far as smoothing moves walls of cubic voxels apart
     surface.extracted = extracted[n];
     surface.refinement = isForFiles ? refinements[surface.label->layer] : Refinement();
   }

@@ -769,18 +769,19 @@ TEST_F(ScenePicture, LaterLayersGiveWayToEarlierOnesThatLieLittleBehindThem)
   const auto back = Item(Box({ -40, 0, -40 }, { 40, 50, 40 }), Red);
   RenderSettings settings = Plain();
   settings.pixelSize = 0.6;
-  for (const double nearer : { 0.03, 0.2, 0.4, 0.8, 2.0 })
+  for (const double nearer : { 0.03, 0.2, 0.3, 0.42, 0.8, 2.0 })
   {
     auto front = Item(Box({ -21, -nearer, -23 }, { 22, 30, 27 }), Green);
-    for (const std::size_t layer : { 0, 1 })
+    for (const auto & [layer, gap, most] : { std::tuple(0u, 0.0, 0.0), { 1u, 0.0, 0.36 }, { 1u, 1.0, 1.0 } })
     {
       front.layer = layer;
+      front.layerGap = gap;
       for (const View & view : { View(), ObliqueView(10, 10) })
       {
         const auto rendered = m_Renderer.Render({ { back, front }, {}, {} }, settings, { view }).front();
         const auto at = rendered.projection->PositionOf({ 0.0, 0.0, 0.0 });
         const auto * const pixel = rendered.picture.At(static_cast<int>(at.x), static_cast<int>(at.y));
-        EXPECT_EQ(pixel[0] > pixel[1], layer == 1 && nearer < 0.6) << view.name << ": " << nearer << ", " << layer;
+        EXPECT_EQ(pixel[0] > pixel[1], nearer < most) << view.name << ": " << nearer << ", " << most;
       }
     }
   }

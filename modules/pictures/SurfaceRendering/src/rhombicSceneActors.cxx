@@ -124,28 +124,30 @@ MakePlaneActor(const ScenePlane & plane)
   return actor;
 }
 
-/** How many pixels a surface is moved away from the viewer, so that surfaces of earlier layers are seen instead. */
+/** How far a surface is moved away from the viewer, in mm, so that surfaces of earlier layers are seen instead. */
 double
-PixelsBehind(const SceneSurface & item)
+DistanceBehind(const SceneSurface & item, double pixelSize)
 {
   constexpr std::size_t mostLayers = 5;
-  return static_cast<double>(std::min(item.layer, mostLayers));
+  constexpr double apart =
+    0.6; // pixels: simplified for a picture, two walls in one place are half a pixel apart at most
+  return static_cast<double>(std::min(item.layer, mostLayers)) * std::max(apart * pixelSize, item.layerGap);
 }
 
 /** Moves surfaces away from the viewer, so that the first of those in one place is seen: by steps far below a pixel,
  * and by their layers.
- * \param pixelOverDepth width of a pixel over the depth between the clipping planes */
+ * \param depth mm between the clipping planes */
 void
-OffsetSurfaces(const std::vector<SceneSurface> & surfaces, double pixelOverDepth, vtkActorCollection * actors)
+OffsetSurfaces(const std::vector<SceneSurface> & surfaces, double pixelSize, double depth, vtkActorCollection * actors)
 {
   constexpr std::size_t mostSteps = 100;
-  constexpr double wholeDepth = 2.0 / vtkRhombicOpaquePass::OffsetUnit; // in units
+  const double unitsOfMillimetre = 2.0 / (depth * vtkRhombicOpaquePass::OffsetUnit);
   actors->InitTraversal();
   for (std::size_t n = 0; n < surfaces.size(); ++n)
   {
     const auto step = static_cast<double>(std::min(n, mostSteps));
     actors->GetNextActor()->GetMapper()->SetRelativeCoincidentTopologyPolygonOffsetParameters(
-      0.0, step + PixelsBehind(surfaces[n]) * pixelOverDepth * wholeDepth);
+      0.0, step + DistanceBehind(surfaces[n], pixelSize) * unitsOfMillimetre);
   }
 }
 
@@ -210,10 +212,10 @@ SetCamera(const Camera & camera, const Scene & scene, vtkRenderer * renderer)
   for (const SceneSurface & item : scene.surfaces)
   {
     constexpr double room = 2.0; // as units are longer far away in perspective
-    farthest = std::max(farthest, camera.farthest + room * PixelsBehind(item) * camera.pixelSize);
+    farthest = std::max(farthest, camera.farthest + room * DistanceBehind(item, camera.pixelSize));
   }
   seen->SetClippingRange(distance + camera.nearest, distance + farthest);
-  OffsetSurfaces(scene.surfaces, camera.pixelSize / (farthest - camera.nearest), renderer->GetActors()); // come first
+  OffsetSurfaces(scene.surfaces, camera.pixelSize, farthest - camera.nearest, renderer->GetActors()); // come first
 }
 
 } // namespace rhombic

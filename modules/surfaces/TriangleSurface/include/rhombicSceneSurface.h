@@ -34,9 +34,10 @@ struct SceneSurface
   bool isGlossy = false;  ///< shines as if it were wet; matte otherwise
   std::int32_t label = 0; ///< of the region in its label map; 0 for surfaces of no label
 
-  /** Of surfaces that overlap: that of an earlier layer is seen where it lies less than a pixel behind, as walls that
-   * both have are simplified apart. */
+  /** Of surfaces that overlap: that of an earlier layer is seen where it lies about half a pixel behind, or less, as
+   * walls that both have are simplified apart. */
   std::size_t layer = 0;
+  double layerGap = 0.0; ///< mm between such walls of layers that follow each other, if more than half a pixel
 
   /** In place of the colour; or null. Scenes with such surfaces are drawn without their
    * lights, so that colours are seen as they are. */
