@@ -5,6 +5,8 @@
 #include "rhombicScanWriter.h"
 #include "rhombicTemporaryFolder.h"
 
+#include "itkImageRegionIterator.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -169,6 +171,36 @@ TEST_F(LargePictures, ScenesAreTheSameByTemporaryFiles)
       EXPECT_TRUE(whole.surfaces[n].surface->GetNormals() == files.surfaces[n].surface->GetNormals());
       EXPECT_TRUE(whole.surfaces[n].surface->GetTriangles() == files.surfaces[n].surface->GetTriangles());
     }
+  }
+}
+
+TEST_F(LargePictures, LesionsAreInFrontOfTheOrgansThatTheyAreIn)
+{
+  for (const bool isLesionFirst : { false, true }) // of the names, so of the labels
+  {
+    const fs::path masks = m_Folder.Path() / (isLesionFirst ? "lesion-first" : "organ-first");
+    fs::create_directory(masks);
+    const auto write = [&masks](const std::string & name, itk::SizeValueType edge) {
+      const auto image = itk::Image<std::uint8_t, 3>::New();
+      image->SetRegions(itk::Size<3>{ { 16, 16, 16 } });
+      image->Allocate(true);
+      itk::ImageRegion<3> cube({ { 2, 2, 2 } }, { { edge, edge, edge } });
+      for (itk::ImageRegionIterator<itk::Image<std::uint8_t, 3>> it(image, cube); !it.IsAtEnd(); ++it)
+      {
+        it.Set(1);
+      }
+      rhombic::WriteScan(rhombic::ScanImage(image), masks / (name + ".nii"));
+    };
+    const std::string organ = isLesionFirst ? "b" : "a", lesion = isLesionFirst ? "a" : "b";
+    write(organ, 12);
+    write(lesion, 5); // in a corner of the organ
+    rhombic::RenderScanSettings settings = this->PicturesOf(masks, Plenty);
+    settings.source.surfaces.labels.emplace();
+    const rhombic::PictureScene scene = MakePictureScene(settings.source, std::nullopt, {}, {});
+    ASSERT_EQ(scene.surfaces.size(), 2u);
+    EXPECT_EQ(scene.surfaces[isLesionFirst ? 0 : 1].name, lesion);
+    EXPECT_EQ(scene.surfaces[isLesionFirst ? 0 : 1].layer, 0u);
+    EXPECT_EQ(scene.surfaces[isLesionFirst ? 1 : 0].layer, 1u);
   }
 }
 

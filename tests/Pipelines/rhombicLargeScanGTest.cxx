@@ -718,23 +718,13 @@ TEST_F(LargeScan, MapsOfBackgroundArePlannedAsTheWorkIsDone)
   settings.source = this->SourceOf(path, Plenty);
   settings.mesh = m_Folder.Path() / "mesh.vtp";
   settings.surfaces.labels.emplace();
-  const auto sentenceOf = [](const auto & work) -> std::string {
-    try
-    {
-      work();
-      return "not refused";
-    }
-    catch (const rhombic::Failure & failure)
-    {
-      return failure.GetDescription();
-    }
-  };
   for (const std::vector<fs::path> & beside : { std::vector<fs::path>(), { path } })
   {
     settings.surfaces.labels->source.paths = beside;
     const std::string sentence = path.string() + " holds nothing but background; check that it was exported whole.";
-    EXPECT_EQ(sentenceOf([&] { rhombic::PlanMeshScan(settings, {}); }), sentence);
-    EXPECT_EQ(sentenceOf([&] { this->Mesh(settings); }), sentence);
+    EXPECT_EQ(rhombictest::Refusal([&] { rhombic::PlanMeshScan(settings, {}); }, rhombic::FailureKind::Empty),
+              sentence);
+    EXPECT_EQ(rhombictest::Refusal([&] { this->Mesh(settings); }, rhombic::FailureKind::Empty), sentence);
   }
   rhombic::SurfaceRequest request;
   request.name = "air";

@@ -10,10 +10,10 @@
 namespace rhombictest
 {
 
-/** The sentence of the Failure(Memory) that \a work throws; "no exception" when there is none. */
+/** The sentence of the Failure of a kind that \a work throws; "no exception" when there is none. */
 template <typename TWork>
 std::string
-MemoryRefusal(const TWork & work)
+Refusal(const TWork & work, rhombic::FailureKind kind)
 {
   try
   {
@@ -21,10 +21,17 @@ MemoryRefusal(const TWork & work)
   }
   catch (const rhombic::Failure & failure)
   {
-    EXPECT_EQ(failure.GetKind(), rhombic::FailureKind::Memory);
+    EXPECT_EQ(failure.GetKind(), kind);
     return failure.GetDescription();
   }
   return "no exception";
+}
+
+template <typename TWork>
+std::string
+MemoryRefusal(const TWork & work)
+{
+  return Refusal(work, rhombic::FailureKind::Memory);
 }
 
 } // namespace rhombictest
