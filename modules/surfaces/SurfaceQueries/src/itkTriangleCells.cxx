@@ -23,14 +23,15 @@ std::optional<TriangleSizes>
 TriangleSizes::Find(const TriangleSurface & surface, std::size_t begin, std::size_t end)
 {
   constexpr float infinity = std::numeric_limits<float>::infinity();
+  constexpr PointBox empty{ { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
   TriangleSizes sizes;
-  sizes.box = { { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
+  sizes.box = empty;
   bool areFinite = true;
   std::mutex mutex;
   std::vector<std::array<double, 3>> sums((end - begin + TrianglesOfCellBlock - 1) / TrianglesOfCellBlock);
   rhombic::ForEachBlock(end - begin, TrianglesOfCellBlock, [&](std::size_t first, std::size_t last) {
     TriangleSizes ofBlock;
-    ofBlock.box = sizes.box;
+    ofBlock.box = empty;
     bool isFinite = true;
     for (std::size_t n = begin + first; n < begin + last; ++n)
     {
