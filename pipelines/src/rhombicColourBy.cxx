@@ -401,7 +401,8 @@ InputsOf(const std::optional<ColourBy> & by)
   {
     return {};
   }
-  if (!std::filesystem::exists(by->file))
+  std::error_code error;
+  if (!std::filesystem::exists(by->file, error))
   {
     throw Failure(FailureKind::NotFound, "There is no " + by->file.string() + " to colour by; check its name.");
   }

@@ -211,6 +211,15 @@ TEST(BatchCases, MistakesInManifestsAreNamedWithTheirLine)
   }
 }
 
+TEST(BatchCases, FilesThatTheSystemRefusesToLookForAreMissing)
+{
+  const TemporaryFolder folder;
+  WriteFile(folder.Path() / "m.tsv", "case\tscan\na\t" + std::string(300, 'x') + ".nii\n");
+  const auto found = rhombic::FindCases(folder.Path() / "m.tsv");
+  ASSERT_EQ(found.cases.size(), 1u);
+  EXPECT_TRUE(found.cases[0].files.empty());
+}
+
 TEST(BatchCases, AnEmptyCollectionIsAFailure)
 {
   const TemporaryFolder folder;

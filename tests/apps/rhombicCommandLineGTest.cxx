@@ -286,6 +286,34 @@ INSTANTIATE_TEST_SUITE_P(All, CommandLineErrors, testing::ValuesIn(errorCases), 
   return std::string(error.param.name);
 });
 
+TEST(CommandLine, NamesLongerThanTheSystemAllowsAreRefusedAsThoseOfMissingFiles)
+{
+  const TemporaryFolder folder;
+  const auto scan = [](const std::string & before, const std::string & after) {
+    return before + ' ' + phantomNifti + ' ' + after;
+  };
+  for (const std::string & arguments : { std::string("info $L"),
+                                         std::string("audit $L.stl"),
+                                         std::string("render $L.vtp -o a.png"),
+                                         std::string("batch $L.tsv -o out"),
+                                         std::string("mesh $L.nii -t 250.5 -o a.stl"),
+                                         "mesh " + phantomLabels + " --label-table $L.tsv -o a.stl",
+                                         scan("mesh", "-t 250.5 -o $L.stl"),
+                                         scan("mesh", "-t 250.5 --colour-by $L.nii -o a.vtp"),
+                                         scan("render", "--labels $L.nii -o a.png"),
+                                         scan("render", "--labels " + phantomLabels + " --labels $L.nii -o a.png"),
+                                         scan("render", "--preset $L.yaml -o a.png"),
+                                         scan("compare-labels $L.nii", "-o a.tsv"),
+                                         scan("resample", "-o $L.fcc.nrrd"),
+                                         scan("compare-pictures", "$L.png") })
+  {
+    const Outcome outcome = RunShell("L=$(printf '%0300d' 7)\nrhombic " + arguments, folder.Path());
+    EXPECT_GT(outcome.exitCode, 1) << arguments << outcome.errors;
+    EXPECT_NE(outcome.errors.find("0007"), std::string::npos) << arguments << outcome.errors;
+    EXPECT_TRUE(FilesIn(folder.Path()).empty()) << arguments;
+  }
+}
+
 TEST(CommandLine, RequestsEndWithTheProcessThatMakesThem)
 {
   const TemporaryFolder folder;

@@ -116,9 +116,11 @@ AddFiles(const fs::path & path, std::vector<fs::path> & files)
   }
 }
 
-/** All files of a case, sorted; none if its scan, labels or reference do not exist. */
+/** All files of a case, sorted; none if its scan, labels or reference do not exist, or where the system refuses to look
+ * for them: the case then says why. */
 std::vector<fs::path>
 ListFilesOf(const BatchCase & batchCase)
+try
 {
   std::vector<fs::path> files;
   for (const fs::path & path : { batchCase.scan, batchCase.labels, batchCase.reference })
@@ -136,6 +138,10 @@ ListFilesOf(const BatchCase & batchCase)
   std::sort(files.begin(), files.end());
   files.erase(std::unique(files.begin(), files.end()), files.end());
   return files;
+}
+catch (const fs::filesystem_error &)
+{
+  return {};
 }
 
 /** A text whose letters may be in the name of any file. */
@@ -216,7 +222,8 @@ private:
   {
     const std::string extension = VolumeExtension(file);
     const bool isImage = extension == ".img" || extension == ".img.gz"; // a case is named by the header
-    if (!isImage || (!fs::exists(StemOf(file) + ".hdr") && !fs::exists(StemOf(file) + ".hdr.gz")))
+    std::error_code error;
+    if (!isImage || (!fs::exists(StemOf(file) + ".hdr", error) && !fs::exists(StemOf(file) + ".hdr.gz", error)))
     {
       this->Add(file, "");
     }

@@ -225,7 +225,8 @@ private:
   FindFile(const std::string & value)
   {
     const fs::path path = m_Folder / value;
-    if (value.empty() || !fs::is_regular_file(path))
+    std::error_code error;
+    if (value.empty() || !fs::is_regular_file(path, error))
     {
       return value;
     }

@@ -52,8 +52,9 @@ OpenLabels(const std::vector<fs::path> & paths, const ScanReadOptions & options)
   std::vector<fs::path> files;
   for (const fs::path & path : paths)
   {
+    std::error_code error;
     const std::vector<fs::path> masks =
-      fs::is_directory(path) ? FindMasks(path, options.followsLinks) : std::vector<fs::path>();
+      fs::is_directory(path, error) ? FindMasks(path, options.followsLinks) : std::vector<fs::path>();
     files.insert(files.end(), masks.begin(), masks.end());
     if (masks.empty())
     {

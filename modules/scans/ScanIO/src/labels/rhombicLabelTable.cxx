@@ -17,7 +17,8 @@ FindAmong(const std::vector<fs::path> & files)
 {
   for (const fs::path & file : files)
   {
-    if (fs::is_regular_file(file))
+    std::error_code error;
+    if (fs::is_regular_file(file, error))
     {
       const std::string text = ReadTextFile(file, "label table", LongestLabelTable);
       if (auto table = ParseIfLabelTable(text, file.string(), TableChoice::Found))
