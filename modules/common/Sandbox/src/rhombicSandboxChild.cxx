@@ -104,11 +104,11 @@ LimitTime(std::uint64_t seconds)
   Limit(RLIMIT_CPU, static_cast<rlim_t>(std::clock() / CLOCKS_PER_SEC) + 1 + seconds);
 }
 
-/** Allows this process to allocate \a bytes. AddressSanitizer keeps all memory for itself. */
+/** Allows this process to allocate \a bytes. Sanitizers of memory and threads keep all memory for themselves. */
 void
 LimitMemory([[maybe_unused]] std::uint64_t bytes)
 {
-#ifndef __SANITIZE_ADDRESS__
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   Limit(RLIMIT_DATA, bytes);
 #endif
 }
