@@ -487,6 +487,39 @@ await open('named.html', {}, async (page) => {
   check(await page.locator('img[src="x"]').count() === 0, 'none of them is markup');
 });
 
+// Of a body and its upper half, which has the same wall, the smaller is seen, and not shards of both.
+await open('overlap.html', {}, async (page) => {
+  await page.locator('#canvas').focus();
+  for (const key of ['1', '2', '3', '4']) {
+    await page.keyboard.press(key);
+    await drawn(page);
+    const state = await copyState(page);
+    await page.locator('#canvas').focus();
+    const { width, height, data } = await pixelsOf(page);
+    const counts = { upper: 0, lower: 0, red: 0, green: 0 };
+    for (let n = 0; n < width * height; n++) {
+      if (!isLit({ data }, n)) continue;
+      const z = state.c[2] - (Math.floor(n / width) + 0.5 - height / 2) * state.s - centre[2];
+      const isRed = data[4 * n] > data[4 * n + 1];
+      if (z > 6) { counts.upper++; counts.red += isRed ? 1 : 0; }
+      if (z < -6) { counts.lower++; counts.green += isRed ? 0 : 1; }
+    }
+    check(counts.upper > 20000 && counts.red < 0.01 * counts.upper, `view ${key}: ${counts.red} of ${counts.upper} pixels of the upper half are the body's`);
+    check(counts.lower > 20000 && counts.green === 0, `view ${key}: ${counts.green} of ${counts.lower} pixels of the lower half are not`);
+  }
+  await page.keyboard.press('1');
+  const state = await copyState(page);
+  await page.evaluate((hash) => { location.hash = hash; }, hashOf({ ...state, c: [centre[0], centre[1], centre[2] + 20] }));
+  await drawn(page);
+  const canvas = await page.locator('#canvas').boundingBox();
+  await listen(page);
+  for (const [x, y] of [[0, 0], [-31, 12], [44, -9]]) {
+    await page.mouse.click(canvas.x + canvas.width / 2 + x, canvas.y + canvas.height / 2 + y);
+    await drawn(page);
+    check(await page.locator('.organ.marked .name').textContent() === 'head', 'a click names what is seen');
+  }
+});
+
 // Time in a software renderer: the machine may be busy, so the limits are ten times those that hold on a quiet one, and the
 // best of three times counts.
 let fastest = { view: Infinity, use: Infinity };

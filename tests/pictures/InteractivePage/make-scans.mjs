@@ -1,6 +1,6 @@
 // make-scans.mjs: writes scans of a ball in a body, whose places are known, with slices that lie obliquely or are tilted; a
-// scan of one slice; and a label map with names that a page must not take for markup.
-import { writeFileSync } from 'node:fs';
+// scan of one slice; a label map with names that a page must not take for markup; and masks of a body and of its upper half.
+import { mkdirSync, writeFileSync } from 'node:fs';
 
 export const centre = [12, -34, 56];              // LPS mm, of the body
 export const ball = { at: [32, -46, 74], radius: 12 }; // on the patient's left, in front, near the head
@@ -61,5 +61,9 @@ if (process.argv[1].endsWith('make-scans.mjs')) {
   const labelAt = (point) => (valueAt(point) > 500 ? 2 : valueAt(point) > -300 ? (point[2] < centre[2] ? 1 : 3) : 0);
   writeScan('named.nii', size, columnsOf(0, 0, 0), 2, labelAt);
   writeScan('unnamed.nii', size, columnsOf(0, 0, 0), 2, labelAt);
+  const bodyAt = (point) => (valueAt(point) > -300 ? 1 : 0);
+  mkdirSync('overlap', { recursive: true });
+  writeScan('overlap/body.nii', size, columnsOf(0, 0, 0), 2, bodyAt);
+  writeScan('overlap/head.nii', size, columnsOf(0, 0, 0), 2, (point) => (point[2] > centre[2] ? bodyAt(point) : 0));
   writeFileSync('named.tsv', 'index\tname\n1\t</script><img src=x onerror=alert(1)>\n2\t"the ""ball"" & \'co\' <!-- {{title}}"\n3\t\u05db\u05d1\u05d3 \u0643\u0628\u062f\n');
 }

@@ -787,6 +787,33 @@ TEST_F(ScenePicture, LaterLayersGiveWayToEarlierOnesThatLieLittleBehindThem)
   }
 }
 
+TEST_F(ScenePicture, LaterLayersGiveWayWhereTheyAreSeenAtAGrazingAngle)
+{
+  auto outer = Item(Sphere({ 0, 0, 0 }, 40.0), Red);
+  outer.layer = 1;
+  outer.layerGap = 0.5;
+  const auto inner = Item(Sphere({ 0, 0, 0 }, 39.7), Green);
+  for (const bool perspective : { false, true })
+  {
+    RenderSettings settings = Plain();
+    settings.perspective = perspective;
+    const Picture picture = Draw(m_Renderer, { outer, inner }, settings);
+    double red = 1e9, farthest = 0.0; // pixels from the middle: the first that is red, and the last of any
+    for (int row = 0; row < picture.height; ++row)
+    {
+      for (int column = 0; column < picture.width; ++column)
+      {
+        const double distance = std::hypot(column + 0.5 - 0.5 * picture.width, row + 0.5 - 0.5 * picture.height);
+        const auto * const pixel = picture.At(column, row);
+        red = pixel[0] > pixel[1] ? std::min(red, distance) : red;
+        farthest = pixel[0] != pixel[1] ? std::max(farthest, distance) : farthest;
+      }
+    }
+    EXPECT_GT(red, 0.97 * farthest) << perspective;
+    EXPECT_GT(farthest, 50.0) << perspective;
+  }
+}
+
 TEST_F(ScenePicture, LaterLayersOfFlatScenesAreNotLost)
 {
   const auto first = Item(Box({ -40, 0, -40 }, { -5, 0.3, 40 }), Red);

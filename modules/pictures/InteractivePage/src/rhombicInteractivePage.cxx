@@ -150,6 +150,11 @@ DescribeSurfaces(const PageContent & content)
                 { "opacity", surface.scene.opacity },
                 { "glossy", surface.scene.isGlossy },
                 { "smooth", surface.scene.surface->HasNormals() } };
+    if (surface.scene.layer > 0)
+    {
+      entry["layer"] = surface.scene.layer;
+      entry["gap"] = std::max(surface.scene.layerGap, 2.0 * SmallestError); // walls are simplified by so much
+    }
     if (!surface.group.empty())
     {
       entry["group"] = surface.group;

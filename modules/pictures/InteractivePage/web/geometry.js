@@ -83,9 +83,13 @@ function cameraOf(state, height) {
   return { frame, distance, positionOf, rayAt };
 }
 
-/** Where a line of sight first meets a visible surface. Points on the side of the plane that is cut away do not count;
+/** How far a surface is drawn behind where it lies, in mm: of overlapping segments with a wall in the same place, that of
+ * the earlier layer is seen. \a scale is the mm of a CSS pixel. */
+const behindOf = (organ, scale) => (organ.layer ? Math.min(organ.layer, 5) * Math.max(0.6 * scale, organ.gap) : 0);
+
+/** Where a line of sight first meets a visible surface, as it is drawn at a scale. Points on the side of the plane that is cut away do not count;
  * translucent surfaces only if there is no other. */
-function castRay(organs, ray, cut) {
+function castRay(organs, ray, cut, scale) {
   let best = null;
   for (const organ of organs) {
     if (!organ.visible) continue;
@@ -95,7 +99,8 @@ function castRay(organs, ray, cut) {
     const depth = depthOf(organ, ray, cut);
     if (depth === null) continue;
     const solid = organ.shown >= 0.5;
-    if (!best || (solid && !best.solid) || (solid === best.solid && depth < best.depth)) best = { organ, depth, solid };
+    const drawn = depth + behindOf(organ, scale);
+    if (!best || (solid && !best.solid) || (solid === best.solid && drawn < best.drawn)) best = { organ, depth, drawn, solid };
   }
   return best ? { organ: best.organ, point: pointOn(ray, best.depth) } : null;
 }

@@ -113,7 +113,7 @@ class Viewer {
   pick(x, y) {
     const { state } = this;
     const canvas = document.getElementById('canvas');
-    const hit = castRay(this.organs, cameraOf(state, canvas.clientHeight).rayAt(x - canvas.clientWidth / 2, y - canvas.clientHeight / 2), cutOf(state));
+    const hit = castRay(this.organs, cameraOf(state, canvas.clientHeight).rayAt(x - canvas.clientWidth / 2, y - canvas.clientHeight / 2), cutOf(state), state.scale);
     if (this.measure.isOn) {
       if (hit) this.measure.add(hit.point);
       return;

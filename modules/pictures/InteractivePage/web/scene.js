@@ -8,12 +8,15 @@ in vec3 normal;
 in vec3 own;
 uniform mat4 clipFromPoint;
 uniform mat3 viewFromNormal;
+uniform vec3 back; // moves the surface away from the viewer, in depth alone
 out vec3 place;
 out vec3 direction;
 out vec3 ownColour;
 invariant gl_Position;
 void main() {
   gl_Position = clipFromPoint * vec4(point, 1.0);
+  vec4 behind = clipFromPoint * vec4(point + back / max(abs((viewFromNormal * normal).z), 0.2), 1.0);
+  gl_Position.z = behind.z / behind.w * gl_Position.w;
   place = point;
   ownColour = own;
   direction = viewFromNormal * normal;
@@ -359,7 +362,8 @@ class Scene {
     const { clientWidth, clientHeight } = this.canvas;
     const { frame, distance } = cameraOf(state, clientHeight);
     const reachAround = ({ low, high }) => length(minus(high, low)) / 2 + length(minus(centreOf({ low, high }), state.centre)) + 1;
-    const reach = Math.max(reachAround(this.box), this.volume ? reachAround({ low: this.volume.origin, high: this.volume.highest }) : 0);
+    this.backs = this.organs.map((organ) => behindOf(organ, state.scale));
+    const reach = Math.max(...this.backs) + Math.max(reachAround(this.box), this.volume ? reachAround({ low: this.volume.origin, high: this.volume.highest }) : 0);
     const rows = [[frame.right, 2 / (state.scale * clientWidth)], [frame.up, 2 / (state.scale * clientHeight)], [frame.look, 1 / reach]]
       .map(([way, factor]) => [...way.map((x) => x * factor), -dot(way, state.centre) * factor]);
     rows.push([0, 0, 0, 1]);
@@ -387,11 +391,14 @@ class Scene {
     gl.useProgram(program.program);
     gl.uniformMatrix4fv(program.uniforms.clipFromPoint, false, camera.matrix);
     if (program.uniforms.viewFromNormal) gl.uniformMatrix3fv(program.uniforms.viewFromNormal, false, camera.rotation);
+    this.back = program.uniforms.back;
+    this.look = camera.frame.look;
     gl.uniform4f(program.uniforms.cut, ...(cut ? [...cut.normal, cut.offset] : [0, 0, 0, 1]));
   }
 
   drawOrgan(organ) {
     const mesh = this.meshes[organ.number][this.isFine ? 'fine' : 'coarse'];
+    this.gl.uniform3f(this.back, ...this.look.map((x) => x * this.backs[organ.number]));
     this.gl.bindVertexArray(mesh.array);
     this.gl.drawElements(this.gl.TRIANGLES, mesh.count, this.gl.UNSIGNED_INT, 0);
   }

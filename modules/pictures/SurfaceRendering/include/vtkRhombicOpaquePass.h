@@ -17,9 +17,10 @@ class vtkRhombicTranslucentPass;
  * own, physically based interpolation or a matrix that can't be inverted, subclasses of vtkActor, assemblies, image
  * slices.
  *
- * Of surfaces in one place that one is seen whose mapper has the smallest units of relative polygon offset
- * (vtkMapper::SetRelativeCoincidentTopologyPolygonOffsetParameters()); other settings of coincident topology have no
- * effect.
+ * Of surfaces in one place that one is seen whose mapper has the smallest relative polygon offset
+ * (vtkMapper::SetRelativeCoincidentTopologyPolygonOffsetParameters()): its units, and of surfaces with normals of
+ * points its factor times the slope, the tangent of the angle between normal and view, up to SteepestSlope. Other
+ * settings of coincident topology have no effect.
  *
  * The surfaces are hidden by what the framebuffer holds in front of them. Colours and depths end in the framebuffer, so
  * that other passes may follow. Triangles are uploaded when the polydata, the mapped scalars or the property have
@@ -52,6 +53,9 @@ public:
   /** Of a unit of relative polygon offset, in OpenGL's depths, -1 to 1: some times the rounding errors of 32 bits, less
    * than 0.001 mm in 500 mm. */
   static constexpr double OffsetUnit = 2e-6;
+
+  /** The largest slope by which relative polygon offsets grow. */
+  static constexpr int SteepestSlope = 5;
 
   /** Lights of surfaces. */
   enum LightType

@@ -338,7 +338,9 @@ ActorBuffers::SetUniforms(const Drawing & drawing, const FragmentLists * lists, 
   double factor = 0.0;
   double units = 0.0;
   drawing.actor->GetMapper()->GetRelativeCoincidentTopologyPolygonOffsetParameters(factor, units);
-  program->SetUniformf("backward", static_cast<float>(vtkRhombicOpaquePass::OffsetUnit * units));
+  const float backward[2] = { static_cast<float>(vtkRhombicOpaquePass::OffsetUnit * units),
+                              static_cast<float>(vtkRhombicOpaquePass::OffsetUnit * factor) };
+  program->SetUniform2f("backward", backward);
   if (lists)
   {
     lists->SetUniforms(program);

@@ -124,7 +124,7 @@ MakePlaneActor(const ScenePlane & plane)
   return actor;
 }
 
-/** How far a surface is moved away from the viewer, in mm, so that surfaces of earlier layers are seen instead. */
+/** How far a surface is moved back along its normal, in mm, so that surfaces of earlier layers are seen instead. */
 double
 DistanceBehind(const SceneSurface & item, double pixelSize)
 {
@@ -136,7 +136,7 @@ DistanceBehind(const SceneSurface & item, double pixelSize)
 
 /** Moves surfaces away from the viewer, so that the first of those in one place is seen: by steps far below a pixel,
  * and by their layers.
- * \param depth mm between the clipping planes */
+ * \param depth mm between the clipping planes, as differences of depths have them where they are shortest */
 void
 OffsetSurfaces(const std::vector<SceneSurface> & surfaces, double pixelSize, double depth, vtkActorCollection * actors)
 {
@@ -146,8 +146,8 @@ OffsetSurfaces(const std::vector<SceneSurface> & surfaces, double pixelSize, dou
   for (std::size_t n = 0; n < surfaces.size(); ++n)
   {
     const auto step = static_cast<double>(std::min(n, mostSteps));
-    actors->GetNextActor()->GetMapper()->SetRelativeCoincidentTopologyPolygonOffsetParameters(
-      0.0, step + DistanceBehind(surfaces[n], pixelSize) * unitsOfMillimetre);
+    const double behind = DistanceBehind(surfaces[n], pixelSize) * unitsOfMillimetre;
+    actors->GetNextActor()->GetMapper()->SetRelativeCoincidentTopologyPolygonOffsetParameters(behind, step + behind);
   }
 }
 
@@ -208,14 +208,20 @@ SetCamera(const Camera & camera, const Scene & scene, vtkRenderer * renderer)
   seen->SetParallelScale(reach);
   seen->SetViewAngle(isParallel ? 30.0 : 2.0 * std::atan(reach / distance) * Degrees);
   seen->SetWindowCenter(-2.0 * camera.rightward / camera.width, -2.0 * camera.upward / camera.height);
+  // In perspective a difference of depths is shorter in front, in mm, and longer behind.
+  constexpr double mostStretch = 3.0;
+  const double stretch =
+    isParallel ? 1.0 : std::min((distance + camera.farthest) / (distance + camera.nearest), mostStretch);
+  constexpr double steepest = 1.0 + vtkRhombicOpaquePass::SteepestSlope;
   double farthest = camera.farthest;
   for (const SceneSurface & item : scene.surfaces)
   {
-    constexpr double room = 2.0; // as units are longer far away in perspective
-    farthest = std::max(farthest, camera.farthest + room * DistanceBehind(item, camera.pixelSize));
+    farthest = std::max(
+      farthest, camera.farthest + stretch * stretch * stretch * steepest * DistanceBehind(item, camera.pixelSize));
   }
   seen->SetClippingRange(distance + camera.nearest, distance + farthest);
-  OffsetSurfaces(scene.surfaces, camera.pixelSize, farthest - camera.nearest, renderer->GetActors()); // come first
+  const double depth = (farthest - camera.nearest) / stretch;
+  OffsetSurfaces(scene.surfaces, camera.pixelSize, depth, renderer->GetActors()); // come first
 }
 
 } // namespace rhombic

@@ -1,6 +1,7 @@
 #include "rhombicShaders.h"
 
 #include "rhombicFragmentLists.h"
+#include "vtkRhombicOpaquePass.h"
 
 namespace rhombic
 {
@@ -25,7 +26,7 @@ out vec3 position;
 uniform vec3 centre;
 uniform mat4 clipFromCentred;
 uniform mat4 viewFromCentred;
-uniform float backward; // moves depths, so that of two surfaces in one place the first is seen
+uniform vec2 backward; // moves depths, so that of two surfaces in one place the first is seen: by so much, and times the slope
 uniform mat3 viewFromNormal; // x right, y up, z towards the viewer
 #if CUTS
 uniform vec4 cuts[CUTS];
@@ -36,14 +37,16 @@ void main()
 {
   vec3 centred = point - centre;
   gl_Position = clipFromCentred * vec4(centred, 1.0);
-  gl_Position.z += backward * gl_Position.w;
   position = (viewFromCentred * vec4(centred, 1.0)).xyz;
 #if PICTURE
   texturePlace = place;
 #endif
+  float slope = 0.0;
 #if SMOOTH
   direction = viewFromNormal * normal;
+  slope = min(length(direction.xy) / max(abs(direction.z), 1e-6), float(STEEPEST));
 #endif
+  gl_Position.z += (backward.x + backward.y * slope) * gl_Position.w;
 #if COLOURS
   mappedColour = pointColour;
 #endif
@@ -218,6 +221,7 @@ DefinesOf(const SurfaceProgram & program)
            { "PICTURE", program.isPicture },
            { "COLOURS", program.hasColours },
            { "LIGHTS", program.light == SurfaceLight::Renderer },
+           { "STEEPEST", vtkRhombicOpaquePass::SteepestSlope },
            { "CUTS", program.cuts } };
 }
 
