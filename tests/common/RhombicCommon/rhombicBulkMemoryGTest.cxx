@@ -99,7 +99,7 @@ TEST(BulkMemory, SmallArraysOfManyThreadsShareBlocks)
   }
 }
 
-#ifndef __SANITIZE_ADDRESS__ // which keeps all memory for itself
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // which keep all memory for themselves
 TEST(BulkMemory, BlocksThatComeAndGoLeaveNoHoles)
 {
   const auto resident = [] {

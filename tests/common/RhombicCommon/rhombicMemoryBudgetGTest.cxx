@@ -112,7 +112,7 @@ TEST_F(SystemFiles, AGroupOfVersion1InAContainerLimits)
   EXPECT_EQ(this->FreeMebibytes(), 20000) << "no limit";
 }
 
-#ifndef __SANITIZE_ADDRESS__ // which keeps all addresses for itself
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // which keep all addresses for themselves
 TEST(MemoryBudget, TheLimitOfAddressSpaceCounts)
 {
   rlimit before{};
