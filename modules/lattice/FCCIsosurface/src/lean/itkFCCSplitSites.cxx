@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
+#include <utility>
 
 namespace itk
 {
@@ -106,7 +108,8 @@ public:
         m_Parts[site] = split.GetParts(i, j, k);
       }
     }
-    this->FindPolygons(star);
+    std::iota(std::begin(m_Vertices), std::end(m_Vertices), VertexType{ 0 });
+    this->FindTriangles(star);
     this->SetParts(m_Parts[Center]);
   }
 
@@ -129,9 +132,9 @@ public:
     }
     else if (FCCCells::IsDisk(m_Crossings))
     {
-      broken = this->FindBrokenVertices(1) != 0 ? m_Crossings : 0;
       m_Split |= 1U << Center;
       this->SetParts(FCCSiteParts(m_Crossings, 0));
+      broken = this->FindBroken();
     }
     else if (m_Crossings != 0)
     {
@@ -151,12 +154,16 @@ public:
    * one crossing of this site. When the site has been divided, its own larger vertices have no such edge. */
   template <typename TUse>
   void
-  ForEachBrokenNeighbor(const TUse & use) const
+  ForEachBrokenNeighbor(const TUse & use)
   {
-    const unsigned int single = this->GetVertices() & ~this->GetGatheredVertices();
-    if (single != 0)
+    unsigned int single = this->GetVertices() & ~this->GetGatheredVertices();
+    for (this->CountTriangles(); single != 0; single &= single - 1)
     {
-      this->CountTriangles(single, [&](unsigned int, VertexType end) { use(m_Places[end / VerticesOfSite]); });
+      for (std::uint64_t ends = m_Uses[1 + __builtin_ctz(single)].many; ends != 0; ends &= ends - 1)
+      {
+        const auto end = static_cast<unsigned int>(__builtin_ctzll(ends));
+        use(m_Places[end < FirstOfCenter ? m_Nearer[end] : Center]);
+      }
     }
   }
 
@@ -165,28 +172,22 @@ public:
   std::array<SizeValueType, 2>
   GetMostTriangles() const
   {
-    std::array<SizeValueType, 2> most{};
-    for (unsigned int p = 0; p < m_NumberOfPolygons; ++p)
-    {
-      most[m_Polygons[p].isBelow ? 0 : 1] += m_Polygons[p].size - 2;
-    }
-    return most;
+    return m_MostTriangles;
   }
 
 private:
   static constexpr unsigned int Center = FCCSiteStar::Center;
 
-  /** A vertex of the star: its site, and its number in the site's parts, or Whole. */
+  /** A vertex of the star. That of another site is the first of the edges whose crossings it has; that of the center is
+   * FirstOfCenter and its number in the center's parts. So sets of vertices are the bits of a word. */
   using VertexType = std::uint8_t;
-  static constexpr unsigned int VerticesOfSite = 16;
-  static constexpr unsigned int Whole = 15;
-  static_assert(FCCCells::Directions <= Whole && FCCSiteStar::Sites * VerticesOfSite <= 256,
-                "a vertex has a number of 8 bits");
+  static constexpr unsigned int FirstOfCenter = FCCSiteStar::Edges;
+  static_assert(FirstOfCenter + FCCCells::Directions <= 64, "a word has a bit for each vertex");
 
-  static constexpr VertexType
-  VertexOf(unsigned int site, unsigned int vertex)
+  static constexpr std::uint64_t
+  BitOf(VertexType vertex)
   {
-    return static_cast<VertexType>(site * VerticesOfSite + vertex);
+    return std::uint64_t{ 1 } << vertex;
   }
 
   static bool
@@ -201,33 +202,55 @@ private:
     return (m_Split >> site & 1) != 0;
   }
 
-  /** A polygon of the surface with crossings of the site, from the corner where it is cut into triangles on. */
-  struct Polygon
+  /** A triangle of the surface before clustering. Its corners are vertices of other sites, or FirstOfCenter and the
+   * directions of crossings of the center. */
+  using Triangle = std::array<std::uint8_t, 3>;
+
+  /** The triangles of a vertex. */
+  struct Use
   {
-    bool isBelow;
-    std::uint8_t size;
-    VertexType corners[4]; ///< vertices of the site itself are given by directions, whatever its parts
+    unsigned int triangles = 0;
+    std::uint64_t once = 0;  ///< the other ends of the edges that have a triangle
+    std::uint64_t twice = 0; ///< of those that have two
+    std::uint64_t many = 0;  ///< of those that have more
+
+    /** Adds a triangle with two other ends if \a isThere, without a branch, as that can't be foretold. */
+    void
+    Add(std::uint64_t ends, bool isThere)
+    {
+      ends &= std::uint64_t{ 0 } - std::uint64_t{ isThere };
+      triangles += isThere;
+      many |= twice & ends;
+      twice |= once & ends;
+      once |= ends;
+    }
   };
 
-  /** Finds the site's crossings, and the polygons with any of them. */
+  /** Finds the site's crossings, and the triangles of the polygons with any of them. */
   void
-  FindPolygons(const FCCSiteStar::Pattern & star)
+  FindTriangles(const FCCSiteStar::Pattern & star)
   {
     const auto & edges = FCCStarOfSite.edges;
-    std::uint8_t nearerSites[FCCSiteStar::Edges]; // by edge, if it is cut; so are the corners
-    VertexType corners[FCCSiteStar::Edges];
+    std::uint8_t corners[FCCSiteStar::Edges];                    // by edge, if it is cut
+    VertexType firsts[FCCSiteStar::Sites][FCCCells::Directions]; // by the vertices of sites
+    std::memset(firsts, 0xFF, sizeof firsts);
     for (std::uint64_t cut = FCCStarOfSite.GetCutEdges(star.inside); cut != 0; cut &= cut - 1)
     {
       const auto n = static_cast<unsigned int>(__builtin_ctzll(cut));
       const unsigned int end = (star.starts >> n & 1) != 0 ? 0 : 1;
       const unsigned int site = edges[n].ends[end];
       const unsigned int direction = edges[n].directions[end];
-      nearerSites[n] = static_cast<std::uint8_t>(site);
-      corners[n] = VertexOf(site,
-                            site == Center        ? direction
-                            : this->IsSplit(site) ? m_Parts[site].GetVertex(direction)
-                                                  : Whole);
-      m_Crossings |= site == Center ? 1U << direction : 0;
+      m_Nearer[n] = static_cast<std::uint8_t>(site);
+      if (site == Center)
+      {
+        m_Crossings |= 1U << direction;
+        corners[n] = static_cast<std::uint8_t>(FirstOfCenter + direction);
+      }
+      else
+      {
+        VertexType & first = firsts[site][this->IsSplit(site) ? m_Parts[site].GetVertex(direction) : 0];
+        corners[n] = first = std::min(first, static_cast<VertexType>(n));
+      }
     }
     for (const FCCSiteStar::Tetrahedron & tetrahedron : FCCStarOfSite.tetrahedra)
     {
@@ -242,30 +265,31 @@ private:
       }
       const FCCTetrahedronPolygon & found = tetrahedron.polygons[pattern];
       const std::uint8_t(&crossed)[4] = tetrahedron.edges[pattern];
-      const bool isDeciderNearerToInside = (star.inside >> nearerSites[crossed[found.decider]] & 1) != 0;
+      const bool isDeciderNearerToInside = (star.inside >> m_Nearer[crossed[found.decider]] & 1) != 0;
       unsigned int corner = found.FindFirstCorner(isDeciderNearerToInside);
-      Polygon & polygon = m_Polygons[m_NumberOfPolygons++];
-      polygon.isBelow = tetrahedron.isBelow;
-      polygon.size = found.size;
+      std::uint8_t polygon[4] = {};
       for (unsigned int n = 0; n < found.size; ++n)
       {
-        polygon.corners[n] = corners[crossed[corner]];
+        polygon[n] = corners[crossed[corner]];
         corner = corner + 1u < found.size ? corner + 1 : 0;
       }
+      m_Triangles[m_NumberOfTriangles] = { polygon[0], polygon[1], polygon[2] };
+      m_Triangles[m_NumberOfTriangles + 1] = { polygon[0], polygon[2], polygon[3] }; // of quadrilaterals
+      m_NumberOfTriangles += found.size - 2u;
+      m_MostTriangles[tetrahedron.isBelow ? 0 : 1] += found.size - 2u;
     }
   }
 
   /** Which of some vertices, as bits, have fewer than three triangles, or an edge with more than two. */
   unsigned int
-  FindBrokenVertices(unsigned int wanted) const
+  FindBrokenVertices(unsigned int wanted)
   {
     constexpr unsigned int fewest = 3;
+    this->CountTriangles();
     unsigned int broken = 0;
-    const auto triangles =
-      this->CountTriangles(wanted, [&broken](unsigned int vertex, VertexType) { broken |= 1U << vertex; });
     for (unsigned int vertex = 0; vertex < m_NumberOfVertices; ++vertex)
     {
-      broken |= unsigned{ triangles[vertex] < fewest } << vertex;
+      broken |= unsigned{ m_Uses[1 + vertex].triangles < fewest || m_Uses[1 + vertex].many != 0 } << vertex;
     }
     return broken & wanted;
   }
@@ -288,14 +312,15 @@ private:
     m_Parts[Center] = parts;
     for (unsigned int direction = 0; direction < FCCCells::Directions; ++direction)
     {
-      m_Centers[direction] = VertexOf(Center, parts.GetVertex(direction));
+      m_Vertices[FirstOfCenter + direction] = static_cast<VertexType>(FirstOfCenter + parts.GetVertex(direction));
     }
     m_NumberOfVertices = std::max(1u, parts.GetNumberOfVertices());
+    m_AreCounted = false;
   }
 
   /** The crossings of the site's parts that break a condition. */
   unsigned int
-  FindBroken() const
+  FindBroken()
   {
     const unsigned int gathered = this->GetGatheredVertices();
     const unsigned int broken = gathered == 0 ? 0 : this->FindBrokenVertices(gathered);
@@ -311,23 +336,26 @@ private:
   /** The crossings of a part without which the part may break no condition: the crossings that take part in all edges
    * of the part with more than two triangles. */
   unsigned int
-  FindHelpful(unsigned int part) const
+  FindHelpful(unsigned int part)
   {
-    const VertexType vertex = m_Centers[__builtin_ctz(part)];
-    VertexType ends[256];
-    unsigned int count = 0;
-    this->CountTriangles(1U << vertex % VerticesOfSite, [&](unsigned int, VertexType end) { ends[count++] = end; });
+    const auto vertex = static_cast<VertexType>(FirstOfCenter + this->NumberOf(part));
+    this->CountTriangles();
     unsigned int helpful = part;
-    for (unsigned int n = 0; n < count; ++n)
+    for (std::uint64_t ends = m_Uses[1 + this->NumberOf(part)].many; ends != 0; ends &= ends - 1)
     {
+      const std::uint64_t edge = BitOf(vertex) | (ends & ~(ends - 1));
       unsigned int touching = 0;
-      this->ForEachTriangle([&](const VertexType(&corners)[3], const VertexType(&vertices)[3]) {
-        const bool hasEnd = vertices[0] == ends[n] || vertices[1] == ends[n] || vertices[2] == ends[n];
-        for (unsigned int corner = 0; corner < 3; ++corner)
+      for (unsigned int n = 0; n < m_NumberOfTriangles; ++n)
+      {
+        std::uint64_t all = 0;
+        unsigned int own = 0;
+        for (const std::uint8_t corner : m_Triangles[n])
         {
-          touching |= hasEnd && vertices[corner] == vertex ? 1U << (corners[corner] % VerticesOfSite) : 0;
+          all |= BitOf(m_Vertices[corner]);
+          own |= m_Vertices[corner] == vertex ? 1U << (corner - FirstOfCenter) : 0;
         }
-      });
+        touching |= (edge & ~all) == 0 && __builtin_popcountll(all) == 3 ? own : 0;
+      }
       helpful &= touching;
     }
     return helpful;
@@ -345,7 +373,7 @@ private:
       if (FCCCells::IsDisk(rest))
       {
         this->SetParts(FCCSiteParts(m_Crossings, single | crossing));
-        if (IsSingle(rest) || this->FindBrokenVertices(1U << m_Centers[__builtin_ctz(rest)] % VerticesOfSite) == 0)
+        if (IsSingle(rest) || this->FindBrokenVertices(1U << this->NumberOf(rest)) == 0)
         {
           return;
         }
@@ -354,35 +382,11 @@ private:
     this->SetParts(FCCSiteParts(m_Crossings, single | part));
   }
 
-  /** The vertex of a polygon's corner, with the parts that the site has now. */
-  VertexType
-  VertexAt(VertexType corner) const
+  /** The number of the vertex that a part makes. */
+  unsigned int
+  NumberOf(unsigned int part) const
   {
-    return corner < VertexOf(Center, 0) ? corner : m_Centers[corner % VerticesOfSite];
-  }
-
-  /** Calls use(three corners, their vertices) for the triangles of the polygons: all that have vertices of the site. */
-  template <typename TUse>
-  void
-  ForEachTriangle(const TUse & use) const
-  {
-    for (unsigned int p = 0; p < m_NumberOfPolygons; ++p)
-    {
-      const Polygon & polygon = m_Polygons[p];
-      VertexType corners[3] = { polygon.corners[0], 0, polygon.corners[1] };
-      VertexType vertices[3] = { this->VertexAt(corners[0]), 0, this->VertexAt(corners[2]) };
-      for (unsigned int n = 2; n < polygon.size; ++n)
-      {
-        corners[1] = corners[2];
-        vertices[1] = vertices[2];
-        corners[2] = polygon.corners[n];
-        vertices[2] = this->VertexAt(corners[2]);
-        if (vertices[0] != vertices[1] && vertices[1] != vertices[2] && vertices[2] != vertices[0])
-        {
-          use(corners, vertices);
-        }
-      }
-    }
+    return m_Parts[Center].GetVertex(static_cast<unsigned int>(__builtin_ctz(part)));
   }
 
   /** The numbers of the site's vertices, as bits. */
@@ -405,44 +409,42 @@ private:
     return gathered;
   }
 
-  /** Counts the triangles of some vertices of the site, and calls use(number of a vertex, other end) for their edges
-   * with more than two. */
-  template <typename TUse>
-  std::array<std::uint8_t, VerticesOfSite>
-  CountTriangles(unsigned int wanted, const TUse & use) const
+  /** Finds the triangles of the site's vertices, with the parts that the site has now, where that has not been done. */
+  void
+  CountTriangles()
   {
-    std::array<std::uint8_t, VerticesOfSite> triangles{};
-    std::uint8_t uses[VerticesOfSite][256];
-    std::memset(uses, 0, m_NumberOfVertices * sizeof uses[0]);
-    this->ForEachTriangle([&](const VertexType(&)[3], const VertexType(&vertices)[3]) {
-      for (unsigned int n = 0; n < 3; ++n)
+    if (std::exchange(m_AreCounted, true))
+    {
+      return;
+    }
+    std::fill_n(m_Uses, 1 + m_NumberOfVertices, Use());
+    for (unsigned int n = 0; n < m_NumberOfTriangles; ++n)
+    {
+      const auto [a, b, c] = m_Triangles[n];
+      const VertexType vertices[3] = { m_Vertices[a], m_Vertices[b], m_Vertices[c] };
+      // Corners of one vertex leave no triangle.
+      const bool isThere = (vertices[0] != vertices[1]) & (vertices[1] != vertices[2]) & (vertices[2] != vertices[0]);
+      const std::uint64_t all = BitOf(vertices[0]) | BitOf(vertices[1]) | BitOf(vertices[2]);
+      for (const VertexType vertex : vertices)
       {
-        const unsigned int vertex = vertices[n] % VerticesOfSite;
-        if (vertices[n] < VertexOf(Center, 0) || (wanted >> vertex & 1) == 0)
-        {
-          continue;
-        }
-        ++triangles[vertex];
-        for (const VertexType end : { vertices[(n + 1) % 3], vertices[(n + 2) % 3] })
-        {
-          if (++uses[vertex][end] == 3)
-          {
-            use(vertex, end);
-          }
-        }
+        const unsigned int place = std::max<unsigned int>(vertex, FirstOfCenter - 1) - (FirstOfCenter - 1);
+        m_Uses[place].Add(all & ~BitOf(vertex), isThere);
       }
-    });
-    return triangles;
+    }
   }
 
   std::array<SizeValueType, 3> m_Places[FCCSiteStar::Sites];
   unsigned int m_Split{ 0 };
   unsigned int m_Crossings{ 0 }; ///< directions of the crossings that the site is nearer to
   FCCSiteParts m_Parts[FCCSiteStar::Sites];
+  std::uint8_t m_Nearer[FCCSiteStar::Edges]; ///< the sites that are nearer to the crossings of cut edges
   unsigned int m_NumberOfVertices{ 1 };
-  VertexType m_Centers[VerticesOfSite]; ///< the site's vertices, by direction; a whole site has vertex 0
-  unsigned int m_NumberOfPolygons{ 0 };
-  Polygon m_Polygons[FCCSiteStar::Tetrahedra];
+  VertexType m_Vertices[64]; ///< by the corners of triangles, with the parts that the site has now
+  unsigned int m_NumberOfTriangles{ 0 };
+  Triangle m_Triangles[2 * FCCSiteStar::Tetrahedra];
+  std::array<SizeValueType, 2> m_MostTriangles{};
+  bool m_AreCounted{ false };
+  Use m_Uses[1 + FCCCells::Directions]; ///< of all other sites, then of the site's vertices, if they are counted
 };
 
 } // namespace
