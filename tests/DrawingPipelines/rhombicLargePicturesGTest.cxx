@@ -1,5 +1,6 @@
 #include "rhombicLabelScan.h"
 #include "rhombicMemoryRefusal.h"
+#include "rhombicPictureIO.h"
 #include "rhombicPictureSteps.h"
 #include "rhombicRenderScan.h"
 #include "rhombicScanWriter.h"
@@ -201,6 +202,22 @@ TEST_F(LargePictures, LesionsAreInFrontOfTheOrgansThatTheyAreIn)
     EXPECT_EQ(scene.surfaces[isLesionFirst ? 0 : 1].name, lesion);
     EXPECT_EQ(scene.surfaces[isLesionFirst ? 0 : 1].layer, 0u);
     EXPECT_EQ(scene.surfaces[isLesionFirst ? 1 : 0].layer, 1u);
+
+    settings.source.surfaces.rules.rules = { rhombic::ParseSceneRule(organ + "=#00ff00,1"),
+                                             rhombic::ParseSceneRule(lesion + "=#ff0000,1") };
+    settings.cuts = { rhombic::ParseCutRequest("y<4") }; // through both
+    settings.views = { {} };
+    settings.slices = {};
+    this->Draw(settings);
+    const rhombic::Picture picture = rhombic::ReadPicture(settings.picture);
+    double red = 0.0, green = 0.0;
+    for (int n = 0; n < picture.width * picture.height; ++n)
+    {
+      const auto * const pixel = picture.At(n % picture.width, n / picture.width);
+      red += pixel[0] > 2 * pixel[1];
+      green += pixel[1] > 2 * pixel[0];
+    }
+    EXPECT_NEAR(red / (red + green), 25.0 / 144.0, 0.03) << isLesionFirst;
   }
 }
 

@@ -78,22 +78,29 @@ ClearWhereCut(const Projection & projection, const std::vector<ClipPlane> & cuts
   }
 }
 
-/** A slice without a scan: grey, with the areas inside the surfaces in their colours. Larger surfaces lie under smaller
- * ones, which may be inside them. */
-Picture
-FillAreas(const PictureScene & scene, const Projection & projection)
+/** The numbers of a scene's surfaces, larger volumes first: of areas in one place, that of the smallest is seen, as a
+ * lesion in its organ. */
+std::vector<std::size_t>
+FromLargestOn(const PictureScene & scene)
 {
-  constexpr std::uint8_t grey = GreyOfNoScan;
-  constexpr double tint = 0.55;
   std::vector<std::size_t> order(scene.surfaces.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&scene](std::size_t a, std::size_t b) {
     return scene.rows[a].volume.value_or(0.0) > scene.rows[b].volume.value_or(0.0);
   });
+  return order;
+}
+
+/** A slice without a scan: grey, with the areas inside the surfaces in their colours. */
+Picture
+FillAreas(const PictureScene & scene, const Projection & projection)
+{
+  constexpr std::uint8_t grey = GreyOfNoScan;
+  constexpr double tint = 0.55;
   Picture slice(projection.width, projection.height);
   std::fill(slice.pixels.begin(), slice.pixels.end(), grey);
   std::vector<CapSurface> areas;
-  for (const std::size_t n : order)
+  for (const std::size_t n : FromLargestOn(scene))
   {
     const SceneSurface & surface = scene.surfaces[n];
     areas.push_back({ CutSurface(*surface.surface, projection), surface.colour, tint });
@@ -139,12 +146,14 @@ ClipPlanesOf(const RenderScanSettings & settings, const PictureScene & source)
 void
 AddCaps(const RenderScanSettings & settings, const PictureScene & source, Scene & scene)
 {
+  const std::vector<std::size_t> order = FromLargestOn(source);
   for (std::size_t n = 0; n < settings.cuts.size(); ++n)
   {
     const Projection projection = PlaneThrough(scene.cuts[n].point, settings.cuts[n].plane.plane, source);
     std::vector<CapSurface> cut;
-    for (const SceneSurface & surface : source.surfaces)
+    for (const std::size_t number : order)
     {
+      const SceneSurface & surface = source.surfaces[number];
       if (IsCut(surface, scene.cuts[n]))
       {
         const double tint = !source.scan ? 1.0 : surface.opacity < 1.0 ? 0.0 : 0.25;

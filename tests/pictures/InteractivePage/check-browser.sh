@@ -32,7 +32,7 @@ done
 "$rhombic" -q render slice.nii --surface body=-300 -o slice.html
 "$rhombic" -q render named.nii --label-table named.tsv -o named.html
 "$rhombic" -q render unnamed.nii -o unnamed.html
-"$rhombic" -q render overlap --draw 'body=#ff0000,1' --draw 'head=#00ff00,1' -o overlap.html
+"$rhombic" -q render overlap --draw 'body=#ff0000,1' --draw 'apex=#00ff00,1' -o overlap.html
 rm -f real-*.html
 if [ -d "${RHOMBIC_SCANS-}" ]; then
   body=$RHOMBIC_SCANS/ct_body_totalseg_nifti

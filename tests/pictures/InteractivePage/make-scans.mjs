@@ -64,6 +64,6 @@ if (process.argv[1].endsWith('make-scans.mjs')) {
   const bodyAt = (point) => (valueAt(point) > -300 ? 1 : 0);
   mkdirSync('overlap', { recursive: true });
   writeScan('overlap/body.nii', size, columnsOf(0, 0, 0), 2, bodyAt);
-  writeScan('overlap/head.nii', size, columnsOf(0, 0, 0), 2, (point) => (point[2] > centre[2] ? bodyAt(point) : 0));
+  writeScan('overlap/apex.nii', size, columnsOf(0, 0, 0), 2, (point) => (point[2] > centre[2] ? bodyAt(point) : 0));
   writeFileSync('named.tsv', 'index\tname\n1\t</script><img src=x onerror=alert(1)>\n2\t"the ""ball"" & \'co\' <!-- {{title}}"\n3\t\u05db\u05d1\u05d3 \u0643\u0628\u062f\n');
 }

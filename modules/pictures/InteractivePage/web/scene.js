@@ -483,7 +483,7 @@ class Scene {
     const foot = along(middle, n, cut.offset - dot(n, middle));
     const corners = [[-1, -1], [1, -1], [-1, 1], [1, 1]].map(([a, b]) => along(along(foot, u, a * far), v, b * far));
     gl.enable(gl.STENCIL_TEST);
-    for (const organ of organs) {
+    for (const organ of [...organs].sort((a, b) => (b.volume || 0) - (a.volume || 0))) { // a lesion in its organ is seen
       this.use(this.depth, camera, cut);
       gl.colorMask(false, false, false, false);
       gl.depthMask(false);
