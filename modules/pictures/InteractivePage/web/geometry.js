@@ -83,12 +83,12 @@ function cameraOf(state, height) {
   return { frame, distance, positionOf, rayAt };
 }
 
-/** How far a surface is drawn behind where it lies, in mm: of overlapping segments with a wall in the same place, that of
- * the earlier layer is seen. \a scale is the mm of a CSS pixel. */
+/** How far a surface is drawn behind where it lies, in mm along its normal: of overlapping segments with a wall in the same
+ * place, that of the earlier layer is seen. \a scale is the mm of a CSS pixel. */
 const behindOf = (organ, scale) => (organ.layer ? Math.min(organ.layer, 5) * Math.max(0.6 * scale, organ.gap) : 0);
 
-/** Where a line of sight first meets a visible surface, as it is drawn at a scale. Points on the side of the plane that is cut away do not count;
- * translucent surfaces only if there is no other. */
+/** Where a line of sight first meets a visible surface, as surfaces are drawn at a scale. Points on the side of the plane that
+ * is cut away do not count; translucent surfaces only if there is no other. */
 function castRay(organs, ray, cut, scale) {
   let best = null;
   for (const organ of organs) {

@@ -8,7 +8,7 @@ in vec3 normal;
 in vec3 own;
 uniform mat4 clipFromPoint;
 uniform mat3 viewFromNormal;
-uniform vec3 back; // moves the surface away from the viewer, in depth alone
+uniform vec3 back; // moves the surface away from the viewer, in depth alone: by so much along its normal
 out vec3 place;
 out vec3 direction;
 out vec3 ownColour;
@@ -363,7 +363,7 @@ class Scene {
     const { frame, distance } = cameraOf(state, clientHeight);
     const reachAround = ({ low, high }) => length(minus(high, low)) / 2 + length(minus(centreOf({ low, high }), state.centre)) + 1;
     this.backs = this.organs.map((organ) => behindOf(organ, state.scale));
-    const reach = Math.max(...this.backs) + Math.max(reachAround(this.box), this.volume ? reachAround({ low: this.volume.origin, high: this.volume.highest }) : 0);
+    const reach = 5 * Math.max(...this.backs) + Math.max(reachAround(this.box), this.volume ? reachAround({ low: this.volume.origin, high: this.volume.highest }) : 0);
     const rows = [[frame.right, 2 / (state.scale * clientWidth)], [frame.up, 2 / (state.scale * clientHeight)], [frame.look, 1 / reach]]
       .map(([way, factor]) => [...way.map((x) => x * factor), -dot(way, state.centre) * factor]);
     rows.push([0, 0, 0, 1]);

@@ -208,16 +208,15 @@ SetCamera(const Camera & camera, const Scene & scene, vtkRenderer * renderer)
   seen->SetParallelScale(reach);
   seen->SetViewAngle(isParallel ? 30.0 : 2.0 * std::atan(reach / distance) * Degrees);
   seen->SetWindowCenter(-2.0 * camera.rightward / camera.width, -2.0 * camera.upward / camera.height);
-  // In perspective a difference of depths is shorter in front, in mm, and longer behind.
+  // A difference of depths is shorter in front in perspective, in mm, and longer behind.
   constexpr double mostStretch = 3.0;
   const double stretch =
     isParallel ? 1.0 : std::min((distance + camera.farthest) / (distance + camera.nearest), mostStretch);
-  constexpr double steepest = 1.0 + vtkRhombicOpaquePass::SteepestSlope;
+  const double room = (1.0 + vtkRhombicOpaquePass::SteepestSlope) * std::pow(stretch, 3.0);
   double farthest = camera.farthest;
   for (const SceneSurface & item : scene.surfaces)
   {
-    farthest = std::max(
-      farthest, camera.farthest + stretch * stretch * stretch * steepest * DistanceBehind(item, camera.pixelSize));
+    farthest = std::max(farthest, camera.farthest + room * DistanceBehind(item, camera.pixelSize));
   }
   seen->SetClippingRange(distance + camera.nearest, distance + farthest);
   const double depth = (farthest - camera.nearest) / stretch;
