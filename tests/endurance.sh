@@ -78,7 +78,7 @@ as_nobody() { # the command, not as root
 }
 
 environment() { # STEP VARIABLE=VALUE... [as_nobody]: the test programs, where TMPDIR and the working directory are a new folder
-  local step=$1 place who=() program
+  local step=$1 place who=() program left_out='*.AThousand*:*.TwentyVariants*'
   shift
   scratch=$(mktemp -d)
   trap 'rm -rf "$scratch"' EXIT
@@ -90,10 +90,11 @@ environment() { # STEP VARIABLE=VALUE... [as_nobody]: the test programs, where T
   chmod 777 "$place"
   chmod "$([ "$step" = home ] || [ "$step" = together ] && echo 555 || echo 777)" "$place/home"
   case $step in home | user | together) who=(as_nobody) ;; esac
+  [ "$step" != lines ] || left_out+=':*GUIDE_md' # a page with a batch: a table of cases cannot hold such paths
   for program in "${programs[@]}"; do
-    [ "$step $program" != 'lines BatchPipelines' ] || continue # a table of cases cannot hold such paths: they are left out
+    [ "$step $program" != 'lines BatchPipelines' ] || continue
     (cd "$place" && part "$step" "$program" count_tests "${who[@]}" env TMPDIR="$place" HOME="$place/home" "$@" \
-       "$source/build/dev/bin/${program}Tests" --gtest_filter='-*.AThousand*:*.TwentyVariants*' && exit $status) || status=1
+       "$source/build/dev/bin/${program}Tests" --gtest_filter="-$left_out" && exit $status) || status=1
   done
   rm -rf "$scratch"
 }
