@@ -366,6 +366,8 @@ LabelTopology::AddOffsets(const std::vector<double> & offsets, const std::vector
   this->LowerRaised();
   m_Raised = this->FindChanges(offsets, areRowsToChange);
   this->MakeChanges(m_Raised);
+  std::sort(
+    m_Raised.begin(), m_Raised.end(), [](const Change & a, const Change & b) { return a.site < b.site; }); // as stored
   for (Change & raised : m_Raised)
   {
     raised.gain += RaisedMargin;
