@@ -57,6 +57,7 @@ struct MeshSteps
   bool smooths = false;
   bool simplifies = false;
   bool colours = false;
+  bool audits = false;
   bool ofWalls = false; ///< that surfaces of labels share: there is more to keep of several sheets
 };
 

@@ -26,6 +26,7 @@ struct SurfaceWork
   const SurfaceSelection & surfaces;
   const SurfaceFinish & finish;
   const std::optional<ColourBy> & colourBy;
+  bool audits = false; ///< whether all triangles of the written surface are searched for crossings
 };
 
 /** The bytes that all may take, and surfaces: without a limit all that is free; 4 MiB and more, less than which the

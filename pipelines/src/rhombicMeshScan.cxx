@@ -418,7 +418,7 @@ CheckMeshScan(const MeshScanSettings & settings)
 SurfaceWork
 WorkOf(const MeshScanSettings & settings)
 {
-  return { settings.source, settings.surfaces, settings.finish, settings.colourBy };
+  return { settings.source, settings.surfaces, settings.finish, settings.colourBy, settings.audits };
 }
 
 void

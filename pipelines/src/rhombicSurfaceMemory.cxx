@@ -86,6 +86,7 @@ FitIntoMemory(MeshEstimate & mesh, const SurfaceWork & work)
     steps.simplifies = steps.simplifies || finish.Simplifies();
   }
   steps.colours = work.colourBy.has_value();
+  steps.audits = work.audits;
   CountSteps(steps, mesh);
   const std::uintmax_t allowed = AllowedBytes(work.source);
   const bool fits = mesh.bytes.afterwards <= allowed;

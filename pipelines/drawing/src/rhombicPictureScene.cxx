@@ -181,7 +181,7 @@ MakeSceneOfScan(const PictureSource & source,
                 const SceneUse & use,
                 const Events & events)
 {
-  const SurfaceWork work{ source.scan, source.surfaces, source.finish, use.colourBy };
+  const SurfaceWork work{ source.scan, source.surfaces, source.finish, use.colourBy, false };
   const auto inFiles = std::make_shared<SurfacesInFiles>();
   const bool keepsAll = !use.viewing || !AreLeftAsTheyAre(source);
   SurfaceViewing viewing = use.viewing.value_or(SurfaceViewing());
