@@ -108,9 +108,10 @@ TEST(TriangleSurfaceIntersections, OfFoldsAndPiercedNeighbours)
   EXPECT_EQ(Intersect(*surface).crossingPairs, 0u) << "duplicates are the topology's";
 }
 
-/** Closed surfaces from smooth to crumpled, with holes, several fans at a point, and flat parts. */
+/** Closed surfaces from smooth to crumpled, with holes, several fans at a point, flat parts, and of any size. */
 TEST(TriangleSurfaceIntersections, OfJoinedTrianglesAreThoseOfAllPairs)
 {
+  constexpr std::array<int, 7> exponents{ 0, 0, -45, 0, 60, 0, -120 }; // of the size, by powers of 2
   itk::SizeValueType surfacesWithout = 0, surfacesWith = 0, grids = 0;
   for (unsigned int seed = 0; seed < 60; ++seed)
   {
@@ -141,6 +142,13 @@ TEST(TriangleSurfaceIntersections, OfJoinedTrianglesAreThoseOfAllPairs)
       }
       triangles.back()[1] = 7;
       triangles.back()[2] = 11;
+    }
+    for (auto & point : surface->GetPoints())
+    {
+      for (float & coordinate : point)
+      {
+        coordinate = std::ldexp(coordinate, exponents[seed % exponents.size()]);
+      }
     }
     itk::SizeValueType crossing = 0, touching = 0;
     std::set<std::uint32_t> found;

@@ -5,7 +5,25 @@
 
 #include "itkTriangleNeighborhood.h"
 
+#include <algorithm>
 #include <cstring>
+
+#ifndef itkTriangleNeighborhood_once
+#define itkTriangleNeighborhood_once
+namespace itk
+{
+
+/** Some pairs of triangles: the coordinates and numbers of their corners, row by row. */
+struct TrianglePairs
+{
+  static constexpr std::size_t Capacity = 16;
+
+  float corners[2][3][3][Capacity]; ///< of both triangles, three each, three coordinates
+  std::uint32_t ids[2][3][Capacity];
+};
+
+} // namespace itk
+#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace itk
@@ -66,6 +84,59 @@ FindOthersIn(const std::int16_t * const * sides,
   return count;
 }
 
+/** One bit for each pair: are all corners of triangle \a other that the other of the pair lacks certain to lie on one
+ * side of its plane? Differences of coordinates are rounded once, so that the bound of rounding is that of products of
+ * three of them. */
+HWY_ATTR std::uint32_t
+FindBesidePlanes(const TrianglePairs & pairs, unsigned int other)
+{
+  constexpr float roundingOfProduct = 5e-6f; // over the product of the vectors' lengths; generous
+  constexpr float leastProduct = 1e-36f;     // what is lost of smaller ones is less
+  const hn::CappedTag<float, TrianglePairs::Capacity> numbers;
+  const hn::RebindToUnsigned<decltype(numbers)> ids;
+  using Numbers = hn::Vec<decltype(numbers)>;
+  const auto & plane = pairs.corners[1 - other];
+  const auto zero = hn::Zero(numbers);
+  const auto least = hn::Set(numbers, leastProduct);
+  std::uint32_t found = 0;
+  for (std::size_t first = 0; first < TrianglePairs::Capacity; first += hn::Lanes(numbers))
+  {
+    const auto offset = [&](const float(&corner)[3][TrianglePairs::Capacity], unsigned int axis) HWY_ATTR {
+      return hn::Sub(hn::Load(numbers, corner[axis] + first), hn::Load(numbers, plane[0][axis] + first));
+    };
+    const auto sumOf = [](Numbers x, Numbers y, Numbers z)
+                         HWY_ATTR { return hn::Add(hn::Add(hn::Abs(x), hn::Abs(y)), hn::Abs(z)); };
+    const auto ux = offset(plane[1], 0), uy = offset(plane[1], 1), uz = offset(plane[1], 2);
+    const auto vx = offset(plane[2], 0), vy = offset(plane[2], 1), vz = offset(plane[2], 2);
+    const auto nx = hn::Sub(hn::Mul(uy, vz), hn::Mul(uz, vy));
+    const auto ny = hn::Sub(hn::Mul(uz, vx), hn::Mul(ux, vz));
+    const auto nz = hn::Sub(hn::Mul(ux, vy), hn::Mul(uy, vx));
+    const auto rounding =
+      hn::Add(hn::Mul(hn::Set(numbers, roundingOfProduct), hn::Mul(sumOf(ux, uy, uz), sumOf(vx, vy, vz))), least);
+    auto areAbove = hn::Eq(zero, zero);
+    auto areBelow = areAbove;
+    for (unsigned int n = 0; n < 3; ++n)
+    {
+      const auto id = hn::Load(ids, pairs.ids[other][n] + first);
+      const auto isCorner = [&](unsigned int corner)
+                              HWY_ATTR { return hn::Eq(id, hn::Load(ids, pairs.ids[1 - other][corner] + first)); };
+      const auto isShared = hn::RebindMask(numbers, hn::Or(hn::Or(isCorner(0), isCorner(1)), isCorner(2)));
+      const auto & corner = pairs.corners[other][n];
+      const auto x = offset(corner, 0), y = offset(corner, 1), z = offset(corner, 2);
+      const auto height = hn::Add(hn::Add(hn::Mul(nx, x), hn::Mul(ny, y)), hn::Mul(nz, z));
+      const auto bound = hn::Add(hn::Mul(rounding, sumOf(x, y, z)), least);
+      areAbove = hn::And(areAbove, hn::Or(isShared, hn::Gt(height, bound))); // neither where one is no number
+      areBelow = hn::And(areBelow, hn::Or(isShared, hn::Lt(height, hn::Neg(bound))));
+    }
+    std::uint32_t bits = 0;
+    std::uint8_t bytes[8]{};
+    hn::StoreMaskBits(numbers, hn::Xor(areAbove, areBelow), bytes); // both where all corners are shared
+    std::memcpy(&bits, bytes, sizeof(bits));
+    found |= bits << first;
+  }
+  return found;
+}
+
 } // namespace HWY_NAMESPACE
 } // namespace itk
 HWY_AFTER_NAMESPACE();
@@ -76,6 +147,7 @@ namespace itk
 {
 
 HWY_EXPORT(FindOthersIn);
+HWY_EXPORT(FindBesidePlanes);
 
 void
 TriangleNeighborhood::Add(std::uint32_t triangle, const StepBox & box, const TriangleType & unfolded)
@@ -114,6 +186,41 @@ TriangleNeighborhood::FindOthers(std::size_t n)
   const std::array<const std::uint32_t *, 3> corners{ m_Corners[0].data(), m_Corners[1].data(), m_Corners[2].data() };
   return HWY_DYNAMIC_DISPATCH(FindOthersIn)(
     sides.data(), corners.data(), m_Triangles[m_Ids[n]].data(), n, m_Size, m_Others.data());
+}
+
+void
+TriangleNeighborhood::KeepMeetingPairs()
+{
+  alignas(64) TrianglePairs pairs{};
+  std::size_t kept = 0;
+  for (std::size_t first = 0; first < m_Pairs.size(); first += TrianglePairs::Capacity)
+  {
+    const std::size_t count = std::min(TrianglePairs::Capacity, m_Pairs.size() - first);
+    for (std::size_t n = 0; n < count; ++n)
+    {
+      const std::uint32_t both[] = { m_Pairs[first + n].first, m_Pairs[first + n].second };
+      for (unsigned int which = 0; which < 2; ++which)
+      {
+        for (unsigned int corner = 0; corner < 3; ++corner)
+        {
+          const std::uint32_t point = m_Triangles[both[which]][corner];
+          pairs.ids[which][corner][n] = point;
+          for (unsigned int axis = 0; axis < 3; ++axis)
+          {
+            pairs.corners[which][corner][axis][n] = m_Points[point][axis];
+          }
+        }
+      }
+    }
+    const std::uint32_t areParted =
+      HWY_DYNAMIC_DISPATCH(FindBesidePlanes)(pairs, 0) | HWY_DYNAMIC_DISPATCH(FindBesidePlanes)(pairs, 1);
+    for (std::size_t n = 0; n < count; ++n)
+    {
+      m_Pairs[kept] = m_Pairs[first + n];
+      kept += areParted >> n & 1 ? 0 : 1;
+    }
+  }
+  m_Pairs.resize(kept);
 }
 
 } // namespace itk

@@ -3,6 +3,8 @@
 
 #include "itkTriangleSurface.h"
 
+#include <utility>
+
 namespace itk
 {
 
@@ -18,7 +20,8 @@ public:
   using StepBox = std::array<std::int16_t, 6>;
 
   explicit TriangleNeighborhood(const TriangleSurface & surface)
-    : m_Triangles(surface.GetTriangles())
+    : m_Points(surface.GetPoints())
+    , m_Triangles(surface.GetTriangles())
   {}
 
   void
@@ -38,12 +41,14 @@ public:
   Add(std::uint32_t triangle, const StepBox & box, const TriangleType & unfolded);
 
   /** Calls \a visit(a, b) for pairs of different triangles whose boxes overlap, which have no unfolded corner in
-   * common, and whose first is among the first \a count that were added. */
+   * common, and whose first is among the first \a count that were added. Pairs may be left out of which one triangle is
+   * certain to lie on one side of the other's plane, but for corners in common. */
   template <typename TVisitor>
   void
   VisitPairs(std::size_t count, const TVisitor & visit)
   {
     m_Others.resize(m_Size);
+    m_Pairs.clear();
     for (std::size_t n = 0; n < count; ++n)
     {
       const std::size_t others = this->FindOthers(n);
@@ -51,9 +56,14 @@ public:
       {
         if (m_Ids[n] != m_Ids[m_Others[k]])
         {
-          visit(m_Ids[n], m_Ids[m_Others[k]]);
+          m_Pairs.emplace_back(m_Ids[n], m_Ids[m_Others[k]]);
         }
       }
+    }
+    this->KeepMeetingPairs();
+    for (const auto & [a, b] : m_Pairs)
+    {
+      visit(a, b);
     }
   }
 
@@ -62,12 +72,18 @@ private:
   std::size_t
   FindOthers(std::size_t n);
 
+  /** Removes the pairs of m_Pairs that a plane of either triangle is certain to part. */
+  void
+  KeepMeetingPairs();
+
+  const TriangleSurface::PointsContainer & m_Points;
   const TriangleSurface::TrianglesContainer & m_Triangles;
   std::size_t m_Size = 0;
   std::vector<std::uint32_t> m_Ids;
   std::array<std::vector<std::int16_t>, 6> m_Sides;    ///< of the boxes
   std::array<std::vector<std::uint32_t>, 3> m_Corners; ///< see Add()
   std::vector<std::uint32_t> m_Others;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> m_Pairs;
 };
 
 } // namespace itk
