@@ -405,6 +405,37 @@ TEST_F(LargeScan, DicomFoldersAreMeshedInSlabs)
   this->ExpectSameInSlabs(settings, 4'500'000);
 }
 
+TEST_F(LargeScan, MoreMemoryIsNotRefusedWhereLessIsEnough)
+{
+  rhombic::PhantomSettings phantom;
+  phantom.spacing = 3.0;
+  rhombic::WritePhantom(m_Folder.Path() / "phantom", phantom);
+  for (const char * const scan : { "phantom/dicom", "phantom/phantom.nii.gz" })
+  {
+    rhombic::MeshScanSettings settings = this->SettingsOf(m_Folder.Path() / scan, Plenty);
+    settings.surfaces.requests.front().isovalue = 1100.5; // a small surface
+    const Outcome whole = this->Mesh(settings);
+    unsigned int refused = 0, made = 0;
+    for (Bytes memory = 4'000'000; memory <= 30'000'000; memory += memory / 16)
+    {
+      settings.source = this->SourceOf(m_Folder.Path() / scan, memory);
+      try
+      {
+        EXPECT_TRUE(this->Mesh(settings).bytes == whole.bytes) << scan << ' ' << memory;
+        ++made;
+      }
+      catch (const rhombic::Failure & failure)
+      {
+        EXPECT_EQ(failure.GetKind(), rhombic::FailureKind::Memory);
+        EXPECT_EQ(made, 0u) << scan << ' ' << memory << ": " << failure.what();
+        ++refused;
+      }
+    }
+    EXPECT_GT(made, 5u) << scan;
+    EXPECT_GT(refused + made, 20u) << scan;
+  }
+}
+
 TEST_F(LargeScan, PlansTellWhatWorkThenDoes)
 {
   rhombic::MeshScanSettings settings = this->SettingsOf(this->Write<std::int16_t>("tall.nii"), 900'000);

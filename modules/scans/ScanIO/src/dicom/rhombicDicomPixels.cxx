@@ -307,12 +307,8 @@ FindPlace(const std::vector<DicomSlice> & slices,
 {
   const std::uintmax_t besideVolume = MemoryToRead(slices, files);
   RequireMemory(besideVolume, options.maximumMemory, "Reading " + FolderOf(slices).string());
-  if (bytes + besideVolume <= MemoryAllowance(options.maximumMemory))
-  {
-    return VoxelPlace::Memory;
-  }
-  RequireRoom(VoxelStore(FolderOf(slices), options.temporaryFolder), bytes);
-  return VoxelPlace::TemporaryFile;
+  const TemporaryStore store = VoxelStore(FolderOf(slices), options.temporaryFolder);
+  return FindPlaceToRead(store, bytes, besideVolume, options.maximumMemory);
 }
 
 /** Reads the volume with a pixel type; nothing when a value is beyond an integer type. */

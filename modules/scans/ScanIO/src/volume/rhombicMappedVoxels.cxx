@@ -1,5 +1,6 @@
 #include "rhombicMappedVoxels.h"
 
+#include "rhombicMemoryBudget.h"
 #include "rhombicStoredVolume.h"
 
 #include "itkImportImageContainer.h"
@@ -104,6 +105,21 @@ TemporaryStore
 VoxelStore(const std::filesystem::path & scan, const std::filesystem::path & folder)
 {
   return { folder, "Cannot read " + scan.string() + ": its voxels" };
+}
+
+VoxelPlace
+FindPlaceToRead(const TemporaryStore & store,
+                std::uintmax_t bytes,
+                std::uintmax_t working,
+                std::uintmax_t maximumMemory)
+{
+  const std::uintmax_t allowed = MemoryAllowance(maximumMemory);
+  if (bytes + working <= allowed && (bytes <= allowed / 2 || !FindObstacle(store, bytes).empty()))
+  {
+    return VoxelPlace::Memory;
+  }
+  RequireRoom(store, bytes);
+  return VoxelPlace::TemporaryFile;
 }
 
 void

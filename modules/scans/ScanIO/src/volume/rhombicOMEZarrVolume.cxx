@@ -99,18 +99,13 @@ FindPlace(const OMEZarrImage & image, const ScanReadOptions & options, const fs:
   const std::uintmax_t size = itk::ImageRegion<3>(image.GetSize()).GetNumberOfPixels();
   const std::uintmax_t pixels = MemoryOfPixels(image.GetType(), false, size);
   const std::uintmax_t working = image.GetWorkingMemory() + (isDirect ? 0 : ZarrBands::MemoryOf(image));
-  if (pixels + working <= MemoryAllowance(options.maximumMemory))
-  {
-    return VoxelPlace::Memory;
-  }
   RequireMemory(working,
                 0,
                 "Unpacking chunks of " + path.string(),
                 image.GetNumberOfLevels() > options.level + 1
                   ? "choose a coarser level of its pyramid with ScanReadOptions::level"
                   : "");
-  RequireRoom(VoxelStore(path, options.temporaryFolder), pixels);
-  return VoxelPlace::TemporaryFile;
+  return FindPlaceToRead(VoxelStore(path, options.temporaryFolder), pixels, working, options.maximumMemory);
 }
 
 /** Reads all voxels, converted as OpenScan() documents. */

@@ -428,12 +428,7 @@ OpenPictureStack(const std::vector<fs::path> & pictures, const fs::path & path, 
   }
   file.findPlace = [=] {
     const std::uintmax_t bytes = MemoryOfPixels(type, false, geometry.GetNumberOfVoxels());
-    if (bytes <= MemoryAllowance(options.maximumMemory))
-    {
-      return VoxelPlace::Memory;
-    }
-    RequireRoom(VoxelStore(path, options.temporaryFolder), bytes);
-    return VoxelPlace::TemporaryFile;
+    return FindPlaceToRead(VoxelStore(path, options.temporaryFolder), bytes, 0, options.maximumMemory);
   };
   file.readVoxels = [=, findPlace = file.findPlace](Scan & read) {
     const bool isLarge = findPlace() == VoxelPlace::TemporaryFile;

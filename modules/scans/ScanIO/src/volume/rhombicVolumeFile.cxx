@@ -189,8 +189,8 @@ AdviseUnpacking(const StoredVolume & volume, const fs::path & path)
   return "unpack it by " + command + ", as a raw file need not fit";
 }
 
-/** Where the voxels of one frame will be: the file is mapped when they would take more than half of the memory allowed;
- * others that would take all of it are put into a temporary file. Throws Failure(Memory) when that can't be. */
+/** Where the voxels of one frame will be: the file is mapped when they would take more than half of the memory allowed.
+ * Throws Failure(Memory) when they fit nowhere. */
 VoxelPlace
 FindPlace(const StoredVolume & volume, std::uintmax_t frame, const fs::path & path, const ScanReadOptions & options)
 {
@@ -206,11 +206,7 @@ FindPlace(const StoredVolume & volume, std::uintmax_t frame, const fs::path & pa
   {
     RequireMemory(bytes, options.maximumMemory, "Reading " + path.string(), AdviseUnpacking(volume, path));
   }
-  if (bytes > allowed)
-  {
-    RequireRoom(VoxelStore(path, options.temporaryFolder), bytes);
-  }
-  return bytes > allowed ? VoxelPlace::TemporaryFile : VoxelPlace::Memory;
+  return FindPlaceToRead(VoxelStore(path, options.temporaryFolder), bytes, 0, options.maximumMemory);
 }
 
 /** Reads the voxels of one frame, or maps its file. */
