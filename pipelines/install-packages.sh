@@ -15,7 +15,7 @@ packages=(
   libcli11-dev libyaml-cpp-dev nlohmann-json3-dev libspdlog-dev zlib1g-dev libblosc-dev libzstd-dev libexpat1-dev libhwy-dev libmeshoptimizer-dev
 )
 if [ "${1-}" = tests ]; then
-  packages+=(chromium firefox-esr libgtest-dev lib3mf-dev dcm2niix dcmtk dicom3tools f3d doxygen dpkg-dev file help2man poppler-utils
+  packages+=(chromium firefox-esr libgtest-dev lib3mf-dev dcm2niix dcmtk dicom3tools f3d doxygen dpkg-dev file help2man poppler-utils strace
              xauth xvfb)
   command -v npm >/dev/null || packages+=(nodejs npm) # Debian's do not install beside others
 fi

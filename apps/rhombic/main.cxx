@@ -1,16 +1,17 @@
 #include "rhombicAtomicFile.h"
 #include "rhombicCommandLine.h"
 #include "rhombicFailure.h"
+#include "rhombicWording.h"
 
 #include "itkMultiThreaderBase.h"
+#include "itkThreadPool.h"
 
-#include <algorithm>
 #include <csignal>
 #include <cstdlib>
+#include <exception>
+#include <functional>
 #include <iostream>
-#include <mutex>
-#include <system_error>
-#include <thread>
+#include <string>
 #include <vector>
 
 #ifdef __GLIBC__
@@ -48,32 +49,27 @@ KeepFreedMemory()
 #endif
 }
 
-/** Throws Failure when this process may not start the threads that ITK's pool starts at once, where ITK would end it.
- */
+/** Starts the threads of ITK's pool. Where the system has none left, this tells a failure and ends the process: what
+ * ITK leaves of the pool ends it otherwise, at once or when it is deleted. \param tell returns the exit code */
 void
-RequireThreads()
+StartThreads(const std::function<int(const Failure &)> & tell)
 {
-  const std::size_t count = itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads();
-  std::vector<std::thread> threads;
-  std::mutex guard;
-  std::unique_lock<std::mutex> allAtOnce(guard);
+  static const auto * const end = &tell; // for a function without arguments; called once
+  constexpr auto refuse = [] {
+    const std::string threads = Count(itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads(), "thread");
+    const std::string advice = "; close other programs, or give a lower number as --threads.";
+    std::_Exit((*end)(Failure(FailureKind::Memory, "Cannot start " + threads + advice)));
+  };
+  const std::terminate_handler usual = std::set_terminate(refuse);
   try
   {
-    while (threads.size() < count)
-    {
-      threads.emplace_back([&guard] { const std::lock_guard<std::mutex> wait(guard); });
-    }
+    itk::ThreadPool::GetInstance();
   }
-  catch (const std::system_error &)
-  {}
-  allAtOnce.unlock();
-  std::for_each(threads.begin(), threads.end(), [](std::thread & thread) { thread.join(); });
-  if (threads.size() < count)
+  catch (const std::exception &)
   {
-    throw Failure(FailureKind::Memory,
-                  "Cannot start " + std::to_string(count) +
-                    " threads; close other programs, or give a lower number as --threads.");
+    refuse();
   }
+  std::set_terminate(usual);
 }
 
 /** What another process of this program asks for, as JSON on standard input: {"command": "mesh", "settings": {...},
@@ -110,6 +106,18 @@ ReportOutputs(const std::vector<MadeFile> & outputs)
   return report;
 }
 
+/** Tells why a command failed; returns the exit code. */
+int
+Tell(const Failure & failure, bool isRequested, Console & console)
+{
+  if (isRequested)
+  {
+    std::cout << ToJson({ { "failure", failure.GetDescription() } }) << std::flush;
+  }
+  console.Error(failure.GetDescription());
+  return static_cast<int>(failure.GetKind());
+}
+
 /** Runs the command that the words name, or that standard input requests. */
 void
 Run(CommandLine & commandLine, const std::vector<std::string> & words, bool isRequested, Console & console)
@@ -125,7 +133,7 @@ Run(CommandLine & commandLine, const std::vector<std::string> & words, bool isRe
     itk::MultiThreaderBase::SetGlobalMaximumNumberOfThreads(threads);
     itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(threads);
   }
-  RequireThreads();
+  StartThreads([&](const Failure & failure) { return Tell(failure, isRequested, console); });
   const std::vector<MadeFile> outputs = command.run({ &console, &command.settings });
   console.NoteStepTimes();
   console.Finish();
@@ -163,12 +171,6 @@ main(int argc, char ** argv)
   }
   catch (const std::exception &)
   {
-    const Failure failure = FailureOfException();
-    if (isRequested)
-    {
-      std::cout << ToJson({ { "failure", failure.GetDescription() } }) << std::flush;
-    }
-    console.Error(failure.GetDescription());
-    return static_cast<int>(failure.GetKind());
+    return Tell(FailureOfException(), isRequested, console);
   }
 }

@@ -289,6 +289,26 @@ INSTANTIATE_TEST_SUITE_P(All, CommandLineErrors, testing::ValuesIn(errorCases), 
   return std::string(error.param.name);
 });
 
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // which start threads, and have no use for strace
+TEST(CommandLine, ThreadsThatTheSystemDoesNotStartAreRefused)
+{
+  const TemporaryFolder folder;
+  if (RunShell("command -v strace", folder.Path()).exitCode != 0)
+  {
+    GTEST_SKIP() << "strace is not installed";
+  }
+  for (const std::string which : { "1", "2", "3" })
+  {
+    const std::string fault = "strace -f -qq -o /dev/null -e inject=clone3:error=EAGAIN:when=" + which;
+    const std::string mesh = " rhombic -q --threads 3 mesh " + phantomNifti + " -t 375.5 -o bone.stl";
+    const Outcome outcome = RunShell(fault + mesh, folder.Path());
+    EXPECT_EQ(outcome.exitCode, 9) << which << outcome.errors;
+    EXPECT_NE(outcome.errors.find("Cannot start 3 threads"), std::string::npos) << which << outcome.errors;
+    EXPECT_TRUE(FilesIn(folder.Path()).empty()) << which;
+  }
+}
+#endif
+
 TEST(CommandLine, NamesLongerThanTheSystemAllowsAreRefusedAsThoseOfMissingFiles)
 {
   const TemporaryFolder folder;

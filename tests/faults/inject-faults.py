@@ -111,12 +111,13 @@ class Runs:
                 if match:
                     first = first or match.group(1)
                     counts[match.groups()] += 1
-                    # Not the memory of a child's loader, nor threads but those of a batch itself: libraries end the process where
-                    # one can't be started, so the program tries threads first.
-                    is_first, is_thread = match.group(1) == first, "CLONE_THREAD" in line
+                    # Not the memory of a child's loader. Of threads those of ITK's pool, which start first, and of a batch itself:
+                    # other libraries end the process where one can't be started.
+                    number, is_first, is_thread = counts[match.groups()], match.group(1) == first, "CLONE_THREAD" in line
+                    is_of_pool = is_thread and is_first and number <= THREADS
                     is_counted = is_first if match.group(2) == "mmap" else not is_thread or command == "batch" and is_first
-                    if begun and is_counted:
-                        numbers[match.group(2)].add(counts[match.groups()])
+                    if is_of_pool or begun and is_counted:
+                        numbers[match.group(2)].add(number)
         return {call: sorted(found) for call, found in numbers.items()}
 
 
