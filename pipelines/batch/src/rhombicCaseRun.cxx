@@ -11,6 +11,7 @@
 #include <cstring>
 #include <fstream>
 #include <map>
+#include <sstream>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -25,11 +26,14 @@ namespace
 constexpr char requestFile[] = ".request";
 constexpr char resultFile[] = ".result";
 
-/** The result that a command wrote to standard output; an empty object if the command was killed. */
+/** The result that a command wrote to standard output; an empty object if the command was killed, or if the file can't
+ * be read. */
 Report
 ReadResult(const fs::path & path)
 {
-  Report result = Report::parse(std::ifstream(path), nullptr, false);
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf(); // a disk that fails ends the text
+  Report result = Report::parse(text.str(), nullptr, false);
   return result.is_object() ? result : Report::object();
 }
 
@@ -268,6 +272,11 @@ CaseRun::TakeStep()
   {
     const std::string sentence = WithoutFolder(result.value("failure", std::string()), m_Stage);
     this->Fail(code, sentence.empty() ? command + " ended with exit code " + std::to_string(code) + "." : sentence);
+  }
+  else if (!result.contains("outputs"))
+  {
+    this->Fail(static_cast<int>(FailureKind::Output),
+               "The result of " + command + " can't be read back; is the disk damaged, or the network?");
   }
   for (Report output : code == 0 && !m_IsTooLong ? result.value("outputs", Report::array()) : Report::array())
   {

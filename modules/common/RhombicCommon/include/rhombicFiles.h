@@ -16,7 +16,7 @@ namespace rhombic
 
 /** Reads a text file in UTF-8, without its byte order mark, up to \a most bytes; one byte more of longer files.
  * \a kind names it in messages, as "preset file". Throws Failure: NotFound when there is no such file, Unreadable when
- * it is a folder or device, is not the user's to read, or is text in UTF-16. */
+ * it is a folder or device, is not the user's to read, can't be read to its end, or is text in UTF-16. */
 std::string
 ReadTextFile(const std::filesystem::path & path,
              const std::string & kind,

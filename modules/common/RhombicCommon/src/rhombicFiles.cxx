@@ -118,6 +118,11 @@ ReadTextFile(const std::filesystem::path & path, const std::string & kind, std::
   {
     text.append(block, 0, static_cast<std::size_t>(file.gcount()));
   }
+  if (file.bad())
+  {
+    throw Failure(FailureKind::Unreadable,
+                  "Cannot read " + path.string() + " to its end; is the disk damaged, or the network?");
+  }
   text.erase(0, text.size() - WithoutByteOrderMark(text, path.string()).size());
   text.resize(std::min(text.size(), most) + (text.size() > most ? 1 : 0));
   return text;

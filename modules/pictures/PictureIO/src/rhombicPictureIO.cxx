@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -31,8 +31,9 @@ FailWriting(const fs::path & path, const std::string & why)
 std::string
 ReadBytes(const fs::path & path)
 {
-  std::ifstream stream(path, std::ios::binary);
-  return { std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>() };
+  std::ostringstream bytes;
+  bytes << std::ifstream(path, std::ios::binary).rdbuf(); // a disk that fails ends them
+  return bytes.str();
 }
 
 bool

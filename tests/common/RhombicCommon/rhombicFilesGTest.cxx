@@ -1,0 +1,28 @@
+#include "rhombicFailure.h"
+#include "rhombicFiles.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+TEST(TextFile, WhatTheSystemCanNotReadToItsEndIsRefused)
+{
+  const std::filesystem::path broken = "/proc/self/mem"; // a regular file, whose first bytes are an error
+  if (!std::filesystem::exists(broken))
+  {
+    GTEST_SKIP() << broken << " is not there";
+  }
+  try
+  {
+    rhombic::ReadTextFile(broken, "table");
+    FAIL() << "it was read";
+  }
+  catch (const rhombic::Failure & failure)
+  {
+    EXPECT_EQ(failure.GetKind(), rhombic::FailureKind::Unreadable);
+    EXPECT_NE(std::string(failure.GetDescription()).find("to its end"), std::string::npos) << failure.GetDescription();
+  }
+}
+
+} // namespace
