@@ -418,7 +418,8 @@ CheckMeshScan(const MeshScanSettings & settings)
 SurfaceWork
 WorkOf(const MeshScanSettings & settings)
 {
-  return { settings.source, settings.surfaces, settings.finish, settings.colourBy, settings.audits };
+  const bool audits = settings.audits || settings.requiresWatertight;
+  return { settings.source, settings.surfaces, settings.finish, settings.colourBy, audits };
 }
 
 void

@@ -138,8 +138,8 @@ struct UnreadScan
  * oriented.
  *
  * Every length in a header is checked against the file's size, and the memory for the voxels against the limit before
- * it is allocated: those of more than half of it are mapped (see IsMapped()). What only a library can unpack is unpacked in
- * child processes with limits (SandboxRun), so that damaged files can't end the process.
+ * it is allocated: those of more than half of it are mapped (see IsMapped()). What only a library can unpack is
+ * unpacked in child processes with limits (SandboxRun), so that damaged files can't end the process.
  *
  * Throws Failure: NotFound (no such path, or no scan in the folder), Usage (no such series or frame, or more than one
  * to choose from), Unreadable (damaged, or colour, vectors, no image...), Geometry, Memory.
