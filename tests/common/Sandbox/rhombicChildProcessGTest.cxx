@@ -120,6 +120,23 @@ TEST_F(ChildProcesses, ProgramsThatCanNotStartAreNamed)
   }
 }
 
+/** A disk that is full is no defect of the program. */
+TEST_F(ChildProcesses, OutputsThatCanNotBeMadeAreNamed)
+{
+  ChildSettings settings = this->Shell("");
+  settings.output = "/no/such/output";
+  try
+  {
+    const ChildProcess child(settings);
+    ADD_FAILURE() << "it was started";
+  }
+  catch (const rhombic::Failure & failure)
+  {
+    EXPECT_STREQ(failure.GetDescription(), "Cannot write /no/such/output: No such file or directory.");
+    EXPECT_EQ(failure.GetKind(), rhombic::FailureKind::Output);
+  }
+}
+
 /** A process may have so few files open that none is left for the pipe to a child. */
 #ifndef __SANITIZE_ADDRESS__ // UndefinedBehaviorSanitizer looks at memory through a pipe
 TEST_F(ChildProcesses, NoMoreFilesAreNoDefect)

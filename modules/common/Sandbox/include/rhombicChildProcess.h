@@ -36,7 +36,8 @@ KindOfStartError(int error);
 class ChildProcess
 {
 public:
-  /** Starts the program. Throws Failure(Internal). */
+  /** Starts the program. Throws Failure: Output where the file of its standard output cannot be made, Memory where the
+   * system has no more memory, processes or open files, else Internal. */
   explicit ChildProcess(const ChildSettings & settings);
 
   /** Kills it, unless this process was forked off the one that started it. */

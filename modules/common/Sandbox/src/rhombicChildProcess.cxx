@@ -22,7 +22,7 @@ namespace
  * program's signal handlers. fork() would copy the page tables of a large process, and may hang in one with threads.
  * Returns 0 or the number of the error. */
 int
-Spawn(const ChildSettings & settings, pid_t & process)
+Spawn(const ChildSettings & settings, int output, pid_t & process)
 {
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
@@ -34,8 +34,7 @@ Spawn(const ChildSettings & settings, pid_t & process)
   {
     posix_spawn_file_actions_adddup2(&files, settings.socket, STDIN_FILENO);
   }
-  constexpr int written = O_WRONLY | O_CREAT | O_TRUNC;
-  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, settings.output.c_str(), written, 0666);
+  posix_spawn_file_actions_adddup2(&files, output, STDOUT_FILENO);
   posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
 
@@ -72,7 +71,15 @@ KindOfStartError(int error)
 ChildProcess::ChildProcess(const ChildSettings & settings)
   : m_Parent(getpid())
 {
-  int error = Spawn(settings, m_Process);
+  const int output = open(settings.output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (output < 0)
+  {
+    const bool isOfProcess = KindOfStartError(errno) == FailureKind::Memory;
+    throw Failure(isOfProcess ? FailureKind::Memory : FailureKind::Output,
+                  "Cannot write " + settings.output.string() + ": " + std::strerror(errno) + ".");
+  }
+  int error = Spawn(settings, output, m_Process);
+  close(output);
   m_Process = error == 0 ? m_Process : -1;
   m_Descriptor = error == 0 ? static_cast<int>(syscall(SYS_pidfd_open, m_Process, 0)) : -1;
   error = error == 0 && m_Descriptor < 0 ? errno : error;
