@@ -166,6 +166,19 @@ private:
 };
 
 PointType
+FindMiddle(const TriangleSurface::PointsContainer & points)
+{
+  PointBox box{ points.front(), points.front() };
+  std::for_each(points.begin(), points.end(), [&box](const PointType & point) { box.Add(point); });
+  PointType middle;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    middle[axis] = 0.5f * box.lowest[axis] + 0.5f * box.highest[axis];
+  }
+  return middle;
+}
+
+PointType
 FindFarthest(const TriangleSurface::PointsContainer & points, const PointType & from)
 {
   return *std::max_element(points.begin(), points.end(), [&from](const auto & a, const auto & b) {
@@ -184,10 +197,19 @@ ComputeTriangleSurfaceLongestDiameter(const TriangleSurface & surface)
   {
     return 0.0;
   }
-  // A good first guess spares most of the search.
-  const PointType first = FindFarthest(points, points.front());
-  const PointType second = FindFarthest(points, first);
-  return std::sqrt(PointBoxes(std::move(points)).FindLargest(SquaredDistanceOfPoints(first, second)));
+  // A good first guess spares most of the search, also of a ball, most of whose points are as far apart as any others.
+  const PointType middle = FindMiddle(points);
+  const PointType first = FindFarthest(points, middle);
+  const double known = SquaredDistanceOfPoints(first, FindFarthest(points, first));
+  // No point is farther from the middle m than the first one, f. So if |ab| > known, then |am| >= |ab| - |bm| > known -
+  // |fm|. Points nearer to the middle are left out.
+  constexpr double rounding = 1e-9;
+  const double least = std::sqrt(known) * (1.0 - rounding) - std::sqrt(SquaredDistanceOfPoints(middle, first));
+  const auto isWithin = [&](const PointType & point) {
+    return least > 0.0 && SquaredDistanceOfPoints(middle, point) < least * least;
+  };
+  points.erase(std::remove_if(points.begin(), points.end(), isWithin), points.end());
+  return std::sqrt(PointBoxes(std::move(points)).FindLargest(known));
 }
 
 } // namespace itk
