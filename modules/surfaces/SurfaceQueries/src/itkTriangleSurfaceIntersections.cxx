@@ -190,6 +190,15 @@ private:
   Flags m_AreUnfolded;
 };
 
+/** Clears the flags of points at which the surface is folded. */
+void
+KeepUnfolded(const TriangleSurface & surface, const TrianglesOfPoints & fans, Flags & areUnfolded)
+{
+  rhombic::ForEachInBlocks(areUnfolded.size(), BlockOfPoints, [&](std::size_t point) {
+    areUnfolded[point] = areUnfolded[point] != 0 && IsUnfoldedPoint(surface, fans, static_cast<std::uint32_t>(point));
+  });
+}
+
 /** \class UnfoldedCorners
  * \brief Flags of the points at which the surface is not folded, of corners of added triangles only. */
 class UnfoldedCorners
@@ -302,10 +311,8 @@ FindCrossingAtEdges(const TriangleSurface & surface,
 Flags
 FindUnfoldedPoints(const TriangleSurface & surface, const TrianglesOfPoints & fans)
 {
-  Flags areUnfolded(surface.GetNumberOfPoints());
-  rhombic::ForEachInBlocks(areUnfolded.size(), BlockOfPoints, [&](std::size_t point) {
-    areUnfolded[point] = IsUnfoldedPoint(surface, fans, static_cast<std::uint32_t>(point));
-  });
+  Flags areUnfolded(surface.GetNumberOfPoints(), 1);
+  KeepUnfolded(surface, fans, areUnfolded);
   return areUnfolded;
 }
 
@@ -351,19 +358,18 @@ FindCrossingTriangles(const TriangleTree & tree,
                       double stageEnd)
 {
   const TriangleSurface & surface = tree.GetSurface();
-  const auto findUnfoldedCorners = [&] {
-    UnfoldedCorners corners(surface);
-    for (std::size_t leaf = 0; leaf < tree.GetNumberOfLeaves(); ++leaf)
+  Flags areUnfolded(surface.GetNumberOfPoints(), 0);
+  for (std::size_t leaf = 0; leaf < tree.GetNumberOfLeaves(); ++leaf)
+  {
+    for (const std::uint32_t triangle : tree.GetLeaf(leaf))
     {
-      for (const std::uint32_t triangle : tree.GetLeaf(leaf))
+      for (const std::uint32_t corner : surface.GetTriangles()[triangle])
       {
-        corners.Add(triangle);
+        areUnfolded[corner] = 1;
       }
     }
-    return std::move(corners).Find(fans);
-  };
-  const bool isWhole = tree.GetNumberOfPlacedTriangles() == surface.GetNumberOfTriangles();
-  Flags areUnfolded = isWhole ? FindUnfoldedPoints(surface, fans) : findUnfoldedCorners();
+  }
+  KeepUnfolded(surface, fans, areUnfolded);
   rhombic::StagedProgress silent({});
   return FindAllCrossing(tree, std::move(areUnfolded), least, progress == nullptr ? silent : *progress, stageEnd);
 }
