@@ -238,7 +238,6 @@ CaseRun::Continue()
   }
   if (!m_Made.empty())
   {
-    m_Record["input"]["md5"] = m_InputHash.get();
     this->KeepOutputs();
   }
   m_Record["status"] = m_Cause.empty() ? "done" : "failed";
@@ -321,8 +320,9 @@ CaseRun::KeepOutputs()
   }
   catch (const std::exception & error) // of files: a full disk, a folder that was removed
   {
+    const auto * const failure = dynamic_cast<const Failure *>(&error);
     m_Cause = DescribeError(error);
-    m_Record["code"] = static_cast<int>(FailureKind::Output);
+    m_Record["code"] = static_cast<int>(failure != nullptr ? failure->GetKind() : FailureKind::Output);
     m_Record["cause"] = WithoutNames(m_Cause, m_Case, m_Stage);
     m_Record["outputs"] = Report::array();
     m_Record["failedOutputs"] = Report::array();
@@ -339,6 +339,7 @@ CaseRun::KeepOutputs()
 void
 CaseRun::AddOutputs()
 {
+  m_Record["input"]["md5"] = m_InputHash.get();
   m_Record["outputs"] = Report::array();
   m_Record["measures"] = Report::array();
   for (const auto & [name, made] : m_Made)

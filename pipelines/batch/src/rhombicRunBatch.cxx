@@ -60,7 +60,14 @@ FindState(const BatchCase & batchCase, const BatchSettings & settings, const Rep
   }
   if (input.value("stamp", std::string()) != stamp)
   {
-    if (input.value("md5", std::string()) != HashFiles(batchCase.files))
+    try
+    {
+      if (input.value("md5", std::string()) != HashFiles(batchCase.files))
+      {
+        return CaseState::Changed;
+      }
+    }
+    catch (const Failure &) // the case tells that its files can't be read
     {
       return CaseState::Changed;
     }

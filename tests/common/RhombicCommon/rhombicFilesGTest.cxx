@@ -28,4 +28,10 @@ TEST(TextFile, WhatTheSystemCanNotReadToItsEndIsRefused)
   }
 }
 
+TEST(HashFiles, FilesThatCanNotBeOpenedAreRefused)
+{
+  EXPECT_EQ(rhombic::HashFiles({}), "d41d8cd98f00b204e9800998ecf8427e"); // of no bytes (RFC 1321)
+  EXPECT_THROW(rhombic::HashFiles({ "/proc/self/cmdline", "/no/such/file" }), rhombic::Failure);
+}
+
 } // namespace

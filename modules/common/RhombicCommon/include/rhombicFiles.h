@@ -93,7 +93,8 @@ private:
   std::unique_ptr<State> m_State;
 };
 
-/** The digest of the contents of files, one after the other. A file that can't be read counts as empty. */
+/** The digest of the contents of files, one after the other. Throws Failure(Unreadable) where one
+ * of them can't be opened. */
 std::string
 HashFiles(const std::vector<std::filesystem::path> & files);
 
