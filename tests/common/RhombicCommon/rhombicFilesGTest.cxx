@@ -28,10 +28,11 @@ TEST(TextFile, WhatTheSystemCanNotReadToItsEndIsRefused)
   }
 }
 
-TEST(HashFiles, FilesThatCanNotBeOpenedAreRefused)
+TEST(HashFiles, FilesThatCanNotBeReadAreRefused)
 {
   EXPECT_EQ(rhombic::HashFiles({}), "d41d8cd98f00b204e9800998ecf8427e"); // of no bytes (RFC 1321)
   EXPECT_THROW(rhombic::HashFiles({ "/proc/self/cmdline", "/no/such/file" }), rhombic::Failure);
+  EXPECT_THROW(rhombic::HashFiles({ "/proc/self/mem" }), rhombic::Failure); // whose first bytes are an error
 }
 
 } // namespace

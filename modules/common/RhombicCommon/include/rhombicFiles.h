@@ -94,7 +94,7 @@ private:
 };
 
 /** The digest of the contents of files, one after the other. Throws Failure(Unreadable) where one
- * of them can't be opened. */
+ * of them can't be read to its end. */
 std::string
 HashFiles(const std::vector<std::filesystem::path> & files);
 

@@ -197,16 +197,17 @@ HashFiles(const std::vector<std::filesystem::path> & files)
   for (const std::filesystem::path & file : files)
   {
     std::ifstream stream(file, std::ios::binary);
-    if (!stream.is_open())
-    {
-      throw Failure(FailureKind::Unreadable,
-                    "Cannot read " + file.string() +
-                      " again for its hash: it is gone, not yours to read, or too many files are open.");
-    }
     while (stream)
     {
       stream.read(block.data(), static_cast<std::streamsize>(block.size()));
       digest.Add(block.data(), static_cast<std::size_t>(stream.gcount()));
+    }
+    if (!stream.is_open() || stream.bad())
+    {
+      throw Failure(
+        FailureKind::Unreadable,
+        "Cannot read " + file.string() +
+          " again for its hash: it is gone, not yours to read, on a disk that fails, or too many files are open.");
     }
   }
   return digest.GetDigits();
