@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -93,6 +94,22 @@ TEST(WorkProgress, LoopsOnTheFiltersThreads)
   EXPECT_THROW(progress.ForEach(100, failAtSeventh), std::runtime_error);
   worker->AbortGenerateDataOn();
   EXPECT_THROW(progress.ForEach(100, [](itk::SizeValueType) { FAIL() << "work began"; }), itk::ProcessAborted);
+}
+
+TEST(WorkProgress, LoopsGoOnBesideACallThatTakesLong)
+{
+  const auto worker = Worker::New();
+  worker->SetNumberOfWorkUnits(2);
+  constexpr unsigned int count = 8;
+  std::atomic<unsigned int> others{ 0 };
+  itk::ForEachOnWorkUnits(*worker, count, [&](itk::SizeValueType n) {
+    n == 0 ? void() : void(++others);
+    while (n == 0 && others < count - 1) // ends only if the other thread makes all other calls
+    {
+      std::this_thread::yield();
+    }
+  });
+  EXPECT_EQ(others, count - 1);
 }
 
 } // namespace

@@ -68,6 +68,27 @@ private:
   std::atomic<bool> m_HasFailed{ false };
 };
 
+/** Calls work(n) for each n below \a count on the threads of a filter. A thread that has ended a call takes the next n,
+ * so that the calls may take different times. After an exception no further call begins, and the first exception is
+ * thrown. */
+template <typename TWork>
+void
+ForEachOnWorkUnits(ProcessObject & filter, SizeValueType count, const TWork & work)
+{
+  ThreadFailure failure;
+  std::atomic<SizeValueType> next{ 0 };
+  const auto workAtRest = [&](SizeValueType) {
+    for (SizeValueType n = next++; n < count; n = next++)
+    {
+      failure.Capture([&] { work(n); });
+    }
+  };
+  MultiThreaderBase * const threader = filter.GetMultiThreader();
+  threader->SetNumberOfWorkUnits(filter.GetNumberOfWorkUnits());
+  threader->ParallelizeArray(0, std::min<SizeValueType>(count, filter.GetNumberOfWorkUnits()), workAtRest, nullptr);
+  failure.Rethrow();
+}
+
 /** \class WorkProgress
  * \brief Progress and abort checks of a filter whose threads share its work.
  *
@@ -124,20 +145,10 @@ public:
   void
   ForEach(SizeValueType count, const TWork & work)
   {
-    ThreadFailure failure;
-    MultiThreaderBase * const threader = m_Filter.GetMultiThreader();
-    threader->SetNumberOfWorkUnits(m_Filter.GetNumberOfWorkUnits());
-    threader->ParallelizeArray(
-      0,
-      count,
-      [&](SizeValueType n) {
-        failure.Capture([&] {
-          this->CheckAbort();
-          work(n);
-        });
-      },
-      nullptr);
-    failure.Rethrow();
+    ForEachOnWorkUnits(m_Filter, count, [&](SizeValueType n) {
+      this->CheckAbort();
+      work(n);
+    });
   }
 
   /** The work that has been counted. */
