@@ -14,24 +14,48 @@ namespace itk
 namespace
 {
 
-/** Sets of the items from 0 to size - 1; each item begins in a set of its own. */
+using PointId = std::uint32_t;
+
+constexpr std::size_t BlockOfPoints = 1 << 14;
+
+/** Sets of the items from 0 to size - 1, which are in no set until they are added. Thread safety: any number of threads
+ * may add and join at once; an item's parent never has a higher number, so that the sets do not depend on their order.
+ */
 class DisjointSets
 {
 public:
   explicit DisjointSets(std::size_t size)
     : m_Parent(size)
   {
-    std::iota(m_Parent.begin(), m_Parent.end(), 0u);
+    rhombic::ForEachInBlocks(size, BlockOfPoints, [&](std::size_t item) { m_Parent[item] = 0; });
   }
 
-  /** The smallest item of the set. */
+  /** Puts an item that is in no set into one of its own. */
+  void
+  Add(std::uint32_t item)
+  {
+    if (!this->Has(item))
+    {
+      std::uint32_t none = 0;
+      m_Parent[item].compare_exchange_strong(none, item + 1, std::memory_order_relaxed);
+    }
+  }
+
+  bool
+  Has(std::uint32_t item) const
+  {
+    return m_Parent[item].load(std::memory_order_relaxed) != 0;
+  }
+
+  /** The smallest item of the set, once no thread joins sets any more. */
   std::uint32_t
   Find(std::uint32_t item)
   {
-    while (m_Parent[item] != item)
+    for (std::uint32_t parent = this->ParentOf(item); parent != item; parent = this->ParentOf(item))
     {
-      m_Parent[item] = m_Parent[m_Parent[item]];
-      item = m_Parent[item];
+      const std::uint32_t next = this->ParentOf(parent);
+      m_Parent[item].store(next + 1, std::memory_order_relaxed); // an item above, whatever others store there
+      item = next;
     }
     return item;
   }
@@ -39,18 +63,23 @@ public:
   void
   Join(std::uint32_t a, std::uint32_t b)
   {
-    const std::uint32_t firstOfA = Find(a);
-    const std::uint32_t firstOfB = Find(b);
-    m_Parent[std::max(firstOfA, firstOfB)] = std::min(firstOfA, firstOfB);
+    for (bool isJoined = false; !isJoined;)
+    {
+      const auto [low, high] = std::minmax({ this->Find(a), this->Find(b) });
+      std::uint32_t first = high + 1;
+      isJoined = low == high || m_Parent[high].compare_exchange_strong(first, low + 1, std::memory_order_relaxed);
+    }
   }
 
 private:
-  BulkVector<std::uint32_t> m_Parent;
+  std::uint32_t
+  ParentOf(std::uint32_t item) const
+  {
+    return m_Parent[item].load(std::memory_order_relaxed) - 1;
+  }
+
+  BulkVector<std::atomic<std::uint32_t>> m_Parent; ///< the parent's number and 1, itself for the first; 0: in no set
 };
-
-using PointId = std::uint32_t;
-
-constexpr std::size_t BlockOfPoints = 1 << 14;
 
 /** Sorts by operator< on several threads: sorts blocks, then merges them in pairs. Items that compare equal must be
  * indistinguishable. Takes the items' memory once more. */
@@ -408,23 +437,23 @@ CountPositions(const TriangleSurface & surface, TriangleSurfaceTopology & topolo
 TriangleSurfaceComponents
 FindTriangleSurfaceComponents(const TriangleSurface & surface)
 {
+  const auto & triangles = surface.GetTriangles();
   DisjointSets sets(surface.GetNumberOfPoints());
+  rhombic::ForEachInBlocks(triangles.size(), BlockOfPoints, [&](std::size_t n) {
+    for (const PointId point : triangles[n])
+    {
+      sets.Add(point);
+    }
+    sets.Join(triangles[n][0], triangles[n][1]);
+    sets.Join(triangles[n][1], triangles[n][2]);
+  });
   TriangleSurfaceComponents components;
   components.ofPoint.assign(surface.GetNumberOfPoints(), TriangleSurfaceComponents::None);
-  for (const auto & triangle : surface.GetTriangles())
+  for (PointId point = 0; point < components.ofPoint.size(); ++point)
   {
-    sets.Join(triangle[0], triangle[1]);
-    sets.Join(triangle[1], triangle[2]);
-    for (const std::uint32_t point : triangle)
+    if (sets.Has(point))
     {
-      components.ofPoint[point] = 0; // used; the number follows
-    }
-  }
-  for (std::uint32_t point = 0; point < components.ofPoint.size(); ++point)
-  {
-    if (components.ofPoint[point] != TriangleSurfaceComponents::None)
-    {
-      const std::uint32_t first = sets.Find(point);
+      const PointId first = sets.Find(point);
       components.ofPoint[point] = first == point ? components.count++ : components.ofPoint[first];
     }
   }
