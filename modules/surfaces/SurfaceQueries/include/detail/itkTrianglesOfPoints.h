@@ -1,12 +1,15 @@
 #ifndef itkTrianglesOfPoints_h
 #define itkTrianglesOfPoints_h
 
+#include "itkMultiThreaderBase.h"
 #include "itkTriangleSurface.h"
 #include "rhombicForEachBlock.h"
 
 #include <algorithm>
+#include <limits>
 #include <mutex>
 #include <numeric>
+#include <vector>
 
 namespace itk
 {
@@ -48,22 +51,12 @@ public:
     , m_Begin(surface.GetNumberOfPoints() + 1, 0)
     , m_Ids(3 * surface.GetNumberOfTriangles())
   {
-    for (const auto & triangle : m_Triangles)
-    {
-      for (const std::uint32_t point : triangle)
-      {
-        ++m_Begin[point];
-      }
-    }
+    const std::vector<PointRange> blocks = this->FindPointRanges();
+    this->ForEachCorner(blocks, [&](std::size_t, std::uint32_t point) { ++m_Begin[point]; });
     // The sums are where each point's ids end; filling them in from the last id on moves them to where they begin.
     std::partial_sum(m_Begin.begin(), m_Begin.end(), m_Begin.begin());
-    for (std::size_t id = m_Triangles.size(); id-- > 0;)
-    {
-      for (const std::uint32_t point : m_Triangles[id])
-      {
-        m_Ids[--m_Begin[point]] = static_cast<std::uint32_t>(id);
-      }
-    }
+    this->ForEachCorner(
+      blocks, [&](std::size_t id, std::uint32_t point) { m_Ids[--m_Begin[point]] = static_cast<std::uint32_t>(id); });
   }
 
   std::size_t
@@ -96,6 +89,63 @@ public:
   }
 
 private:
+  static constexpr std::size_t BlockOfTriangles = 16384;
+
+  struct PointRange
+  {
+    std::uint32_t first = std::numeric_limits<std::uint32_t>::max();
+    std::uint32_t last = 0;
+  };
+
+  /** The points of each block of triangles, from the least to the greatest. */
+  std::vector<PointRange>
+  FindPointRanges() const
+  {
+    std::vector<PointRange> ranges((m_Triangles.size() + BlockOfTriangles - 1) / BlockOfTriangles);
+    rhombic::ForEachBlock(m_Triangles.size(), BlockOfTriangles, [&](std::size_t begin, std::size_t end) {
+      PointRange range;
+      for (std::size_t id = begin; id < end; ++id)
+      {
+        const auto [first, last] = std::minmax({ m_Triangles[id][0], m_Triangles[id][1], m_Triangles[id][2] });
+        range = { std::min(range.first, first), std::max(range.last, last) };
+      }
+      ranges[begin / BlockOfTriangles] = range;
+    });
+    return ranges;
+  }
+
+  /** Calls \a work(id, point) for each corner of each triangle, on several threads, but on one for each point: from the
+   * last triangle at the point to the first. Each thread has one block of points, as it looks at all blocks of
+   * triangles with points in it: all triangles, where these are in no order. */
+  template <typename TWork>
+  void
+  ForEachCorner(const std::vector<PointRange> & blocks, const TWork & work) const
+  {
+    constexpr std::size_t fewestPoints = 65536;
+    const std::size_t points = m_Begin.size() - 1;
+    const std::size_t ofThread = points / MultiThreaderBase::GetGlobalDefaultNumberOfThreads() + 1;
+    rhombic::ForEachBlock(points, std::max(fewestPoints, ofThread), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t block = blocks.size(); block-- > 0;)
+      {
+        if (blocks[block].last < begin || blocks[block].first >= end)
+        {
+          continue;
+        }
+        const std::size_t first = block * BlockOfTriangles;
+        for (std::size_t id = std::min(m_Triangles.size(), first + BlockOfTriangles); id-- > first;)
+        {
+          for (const std::uint32_t point : m_Triangles[id])
+          {
+            if (point >= begin && point < end)
+            {
+              work(id, point);
+            }
+          }
+        }
+      }
+    });
+  }
+
   const TriangleSurface::TrianglesContainer & m_Triangles;
   BulkVector<std::size_t> m_Begin; ///< index of each point's first id, and the end of the last
   BulkVector<std::uint32_t> m_Ids;
