@@ -280,8 +280,9 @@ Untangle(TriangleSurface & surface,
     });
     MovePoints(surface, fans, original, maximumMove, points, round);
     searched.Follow(changed, before);
-    touched.insert(touched.end(), changed.begin(), changed.end());
-    SortUnique(touched);
+    const auto added = touched.insert(touched.end(), changed.begin(), changed.end());
+    std::inplace_merge(touched.begin(), added, touched.end());
+    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
     crossing = searched.FindCrossing(fans, changed);
     progress.Completed(1);
     if (crossing.size() < fewest.size() && HaveAreas(surface, touched))

@@ -115,10 +115,13 @@ TriangleRegion::FindTriangles(const TriangleSurface & surface) const
   for (unsigned int axis = 0; axis < 3; ++axis)
   {
     const std::size_t stride = m_Cells.GetStride(axis);
-    const BulkVector<std::uint8_t> before = isNear;
-    for (std::size_t cell = stride; cell + stride < before.size(); ++cell)
+    const BulkVector<std::uint8_t> copy = isNear;
+    const std::uint8_t * const before = copy.data(); // pointers, so that compilers use vector instructions
+    std::uint8_t * const after = isNear.data();
+    const std::size_t end = copy.size() - std::min(copy.size(), stride);
+    for (std::size_t cell = stride; cell < end; ++cell)
     {
-      isNear[cell] |= before[cell - stride] | before[cell + stride]; // and some at the other end of the row
+      after[cell] |= before[cell - stride] | before[cell + stride]; // and some at the other end of the row
     }
   }
   BulkVector<std::uint32_t> triangles;

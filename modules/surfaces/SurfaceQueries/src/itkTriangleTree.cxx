@@ -471,12 +471,12 @@ TriangleTree::Enlarge(const Box & before, const Box & after)
 {
   this->VisitNodes([&](const Node & node) {
     Box & box = m_Nodes[node.id].box;
-    const bool isEnlarged = box.Overlaps(before);
-    if (isEnlarged)
+    const bool mayHoldTriangle = box.Holds(before);
+    if (mayHoldTriangle)
     {
       box.Add(after);
     }
-    return isEnlarged;
+    return mayHoldTriangle;
   });
 }
 

@@ -42,6 +42,14 @@ struct PointBox
            other.lowest[1] <= highest[1] && lowest[2] <= other.highest[2] && other.lowest[2] <= highest[2];
   }
 
+  /** Whether all of another box is in this one. */
+  bool
+  Holds(const PointBox & other) const
+  {
+    return lowest[0] <= other.lowest[0] && other.highest[0] <= highest[0] && lowest[1] <= other.lowest[1] &&
+           other.highest[1] <= highest[1] && lowest[2] <= other.lowest[2] && other.highest[2] <= highest[2];
+  }
+
   /** The axis of the longest side, the first if several are equally long. */
   unsigned int
   FindLongestAxis() const
