@@ -10,6 +10,8 @@ namespace itk
 namespace
 {
 
+constexpr std::size_t PointsOfBlock = 16384;
+
 /** One end of an axis of the scan, in samples. */
 struct AxisEnd
 {
@@ -47,8 +49,9 @@ MoveFCCWallsToBorder(TriangleSurface & surface,
   constexpr double halfVoxel = 0.5;
   const auto ends = FindAxisEnds(scan, lowCorner, highCorner);
   const auto & spacing = scan.GetSpacing();
-  for (auto & point : surface.GetPoints())
-  {
+  auto & points = surface.GetPoints();
+  rhombic::ForEachInBlocks(points.size(), PointsOfBlock, [&](std::size_t id) {
+    auto & point = points[id];
     Point<double, 3> position;
     std::copy(point.begin(), point.end(), position.Begin());
     const auto index = scan.TransformPhysicalPointToContinuousIndex<double>(position);
@@ -69,7 +72,7 @@ MoveFCCWallsToBorder(TriangleSurface & surface,
       const Point<double, 3> moved = position + scan.GetDirection() * move;
       std::copy(moved.Begin(), moved.End(), point.begin());
     }
-  }
+  });
   surface.Modified();
 }
 
@@ -93,9 +96,8 @@ FindTrianglesNearFCCWalls(const TriangleSurface & surface, const ImageBase<3> & 
     return !isInside;
   };
   std::vector<std::uint8_t> areNear(surface.GetNumberOfPoints());
-  constexpr std::size_t pointsOfBlock = 16384;
   rhombic::ForEachInBlocks(
-    areNear.size(), pointsOfBlock, [&](std::size_t id) { areNear[id] = isNear(static_cast<std::uint32_t>(id)); });
+    areNear.size(), PointsOfBlock, [&](std::size_t id) { areNear[id] = isNear(static_cast<std::uint32_t>(id)); });
   std::vector<std::uint32_t> found;
   for (std::uint32_t triangle = 0; triangle < surface.GetNumberOfTriangles(); ++triangle)
   {
