@@ -11,10 +11,15 @@
 namespace rhombic
 {
 
-/** The source of surfaces: files, then those of the label map, if they are hashed; scan, removed objects, denoising and
- * lattice, as far as there are any. */
+/** The files of a source, then those of its label map, with their hash; null if the source isn't to be hashed. Throws
+ * Failure(Unreadable). Reads all of the files. */
 Report
-ReportSource(const LoadedSource & loaded, const ScanSource & source);
+ReportInput(const LoadedSource & loaded, const ScanSource & source);
+
+/** The source of surfaces: \a input, which ReportInput() returns, scan, removed objects, denoising and lattice, as far
+ * as there are any. */
+Report
+ReportSource(const LoadedSource & loaded, const ScanSource & source, const Report & input);
 
 /** The measures of a finished surface (see rhombicMeasureTable.h), and the results of all steps that it went through.
  */

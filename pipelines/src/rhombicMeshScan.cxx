@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <future>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -474,7 +476,8 @@ MeshScan(const MeshScanSettings & settings, const Events & events, std::optional
   };
   LoadedSource loaded = LoadSource(source, settings.surfaces, std::move(volume), events);
   CheckNumberOfSurfaces(loaded, settings);
-  Report sourceReport = ReportSource(loaded, settings.source);
+  // The hash of the files is made beside the surfaces, or behind them where no thread can be started.
+  std::future<Report> input = std::async(ReportInput, std::cref(loaded), std::cref(settings.source));
   SurfaceMaking making{ settings.source, settings.surfaces, settings.finish, SurfaceUse::Files, events };
   making.checkLabels = [&](LabelWork work) {
     if (FitIntoMemory(work, WorkOf(settings)))
@@ -485,6 +488,7 @@ MeshScan(const MeshScanSettings & settings, const Events & events, std::optional
   std::vector<MeshedSurface> surfaces = ExtractSource(making, loaded, StoresNormals(settings.mesh));
   const std::string frame =
     loaded.FindScan() != nullptr ? ReadDicomExamination(*loaded.FindScan()).frameOfReference : "";
+  Report sourceReport = ReportSource(loaded, settings.source, input.get());
   loaded.DropVolumes();
   std::vector<std::string> names;
   std::transform(surfaces.begin(), surfaces.end(), std::back_inserter(names), [](const auto & surface) {

@@ -157,18 +157,28 @@ DescribeIntersections(const itk::TriangleSurfaceIntersections & found)
 } // namespace
 
 Report
-ReportSource(const LoadedSource & loaded, const ScanSource & source)
+ReportInput(const LoadedSource & loaded, const ScanSource & source)
+{
+  if (!source.isHashed)
+  {
+    return nullptr;
+  }
+  const Scan * const scan = loaded.FindScan();
+  auto files = scan != nullptr ? scan->files : std::vector<std::filesystem::path>{ source.path };
+  if (loaded.scan && loaded.labels)
+  {
+    files.insert(files.end(), loaded.labels->scan.files.begin(), loaded.labels->scan.files.end());
+  }
+  return ReportFiles(files);
+}
+
+Report
+ReportSource(const LoadedSource & loaded, const ScanSource & source, const Report & input)
 {
   Report report = Report::object();
-  if (source.isHashed)
+  if (!input.is_null())
   {
-    const Scan * const scan = loaded.FindScan();
-    auto files = scan != nullptr ? scan->files : std::vector<std::filesystem::path>{ source.path };
-    if (loaded.scan && loaded.labels)
-    {
-      files.insert(files.end(), loaded.labels->scan.files.begin(), loaded.labels->scan.files.end());
-    }
-    report["input"] = ReportFiles(files);
+    report["input"] = input;
   }
   if (!source.presetChoice.empty())
   {

@@ -196,7 +196,7 @@ MakeSceneOfScan(const PictureSource & source,
   scene.inFiles = inFiles;
   SlicePart part = FindSlicePart(use.onlySlices, source, loaded);
   scene.places = std::move(part.places);
-  scene.report = ReportSource(loaded, source.scan);
+  scene.report = ReportSource(loaded, source.scan, ReportInput(loaded, source.scan));
   scene.report["surfaces"] = Report::array();
   AddFacts(loaded, source, scene);
   const Scan * const scan = loaded.FindScan();
