@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <ostream>
+
 using namespace rhombictest;
 
 namespace
@@ -48,6 +50,13 @@ struct AccuracyLimits
   double poor;          ///< of lean's triangles, in %
   double forResampling; ///< added to both distances
   double genus;         ///< of a closed surface; -1 for others
+
+  /** The name of a test. */
+  friend std::ostream &
+  operator<<(std::ostream & os, const AccuracyLimits & limits)
+  {
+    return os << limits.experiment;
+  }
 };
 
 class AccuracyOfModes : public testing::TestWithParam<AccuracyLimits>
