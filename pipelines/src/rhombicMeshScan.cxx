@@ -1,5 +1,6 @@
 #include "rhombicMeshScan.h"
 
+#include "itkMultiThreaderBase.h"
 #include "rhombicFailure.h"
 #include "rhombicForEachBlock.h"
 #include "rhombicMeasureTable.h"
@@ -476,8 +477,10 @@ MeshScan(const MeshScanSettings & settings, const Events & events, std::optional
   };
   LoadedSource loaded = LoadSource(source, settings.surfaces, std::move(volume), events);
   CheckNumberOfSurfaces(loaded, settings);
-  // The hash of the files is made beside the surfaces, or behind them where no thread can be started.
-  std::future<Report> input = std::async(ReportInput, std::cref(loaded), std::cref(settings.source));
+  // The hash of the files is made beside the surfaces, or behind them where no thread may or can be started.
+  const bool hasThreads = itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads() > 1;
+  const auto policy = hasThreads ? std::launch::async | std::launch::deferred : std::launch::deferred;
+  std::future<Report> input = std::async(policy, ReportInput, std::cref(loaded), std::cref(settings.source));
   SurfaceMaking making{ settings.source, settings.surfaces, settings.finish, SurfaceUse::Files, events };
   making.checkLabels = [&](LabelWork work) {
     if (FitIntoMemory(work, WorkOf(settings)))
