@@ -1,5 +1,6 @@
 #include "detail/itkTrianglesOfPoints.h"
 
+#include "itkMultiThreaderBase.h"
 #include "itkTriangleSurfaceTopology.h"
 
 #include <gtest/gtest.h>
@@ -69,6 +70,8 @@ FindComponents(const itk::TriangleSurface & surface, const itk::TrianglesOfPoint
 
 TEST(TrianglesOfPoints, AndComponentsAreThoseOfASearchForAnyOrderOfTriangles)
 {
+  const auto threads = itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads();
+  itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(4); // on one core, too
   std::mt19937 random(41);
   for (const std::uint32_t distance : { 2u, 60u, Points - 1 })
   {
@@ -98,6 +101,7 @@ TEST(TrianglesOfPoints, AndComponentsAreThoseOfASearchForAnyOrderOfTriangles)
       }
     }
   }
+  itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(threads);
 }
 
 } // namespace
