@@ -102,7 +102,7 @@ TEST(WorkProgress, LoopsGoOnBesideACallThatTakesLong)
   worker->SetNumberOfWorkUnits(2);
   constexpr unsigned int count = 8;
   std::atomic<unsigned int> others{ 0 };
-  itk::ForEachOnWorkUnits(*worker, count, [&](itk::SizeValueType n) {
+  itk::WorkProgress::ForEach(*worker, count, [&](itk::SizeValueType n) {
     n == 0 ? void() : void(++others);
     while (n == 0 && others < count - 1) // ends only if the other thread makes all other calls
     {
@@ -110,6 +110,53 @@ TEST(WorkProgress, LoopsGoOnBesideACallThatTakesLong)
     }
   });
   EXPECT_EQ(others, count - 1);
+}
+
+/** Its only loop is made by the threads that did not call it, while the calling thread waits. */
+class Waiter : public itk::ProcessObject
+{
+public:
+  using Self = Waiter;
+  using Pointer = itk::SmartPointer<Self>;
+  itkFactorylessNewMacro(Self);
+  itkTypeMacro(Waiter, itk::ProcessObject);
+
+protected:
+  Waiter()
+  {
+    this->SetNumberOfWorkUnits(2);
+    this->SetNthOutput(0, itk::DataObject::New());
+  }
+
+  void
+  GenerateData() override
+  {
+    constexpr unsigned int count = 8;
+    const std::thread::id caller = std::this_thread::get_id();
+    std::atomic<unsigned int> others{ 0 };
+    itk::WorkProgress progress(*this, count);
+    progress.ForEach(count, [&](itk::SizeValueType) {
+      if (std::this_thread::get_id() != caller)
+      {
+        progress.Completed(1);
+        ++others;
+        return;
+      }
+      while (others < count - 1) // the caller counts no work
+      {
+        std::this_thread::yield();
+      }
+    });
+  }
+};
+
+TEST(WorkProgress, ObserversHearOfLoopsThatOtherThreadsMade)
+{
+  const auto waiter = Waiter::New();
+  waiter->AddObserver(itk::ProgressEvent(), [&waiter](const itk::EventObject &) {
+    waiter->GetProgress() > 0.0f ? waiter->AbortGenerateDataOn() : void();
+  });
+  EXPECT_THROW(waiter->Update(), itk::ProcessAborted);
 }
 
 } // namespace

@@ -68,27 +68,6 @@ private:
   std::atomic<bool> m_HasFailed{ false };
 };
 
-/** Calls work(n) for each n below \a count on the threads of a filter. A thread that has ended a call takes the next n,
- * so that the calls may take different times. After an exception no further call begins, and the first exception is
- * thrown. */
-template <typename TWork>
-void
-ForEachOnWorkUnits(ProcessObject & filter, SizeValueType count, const TWork & work)
-{
-  ThreadFailure failure;
-  std::atomic<SizeValueType> next{ 0 };
-  const auto workAtRest = [&](SizeValueType) {
-    for (SizeValueType n = next++; n < count; n = next++)
-    {
-      failure.Capture([&] { work(n); });
-    }
-  };
-  MultiThreaderBase * const threader = filter.GetMultiThreader();
-  threader->SetNumberOfWorkUnits(filter.GetNumberOfWorkUnits());
-  threader->ParallelizeArray(0, std::min<SizeValueType>(count, filter.GetNumberOfWorkUnits()), workAtRest, nullptr);
-  failure.Rethrow();
-}
-
 /** \class WorkProgress
  * \brief Progress and abort checks of a filter whose threads share its work.
  *
@@ -139,16 +118,39 @@ public:
     this->CheckAbort();
   }
 
-  /** Calls work(n) for each n below \a count on the filter's threads, and checks for an abort before each call. After
-   * an exception no further call begins, and the first exception is thrown. */
+  /** Calls work(n) for each n below \a count on the threads of a filter, and checks for an abort before each call and
+   * behind the last. A thread that has ended a call takes the next n, so that the calls may take different times. After
+   * an exception no further call begins, and the first exception is thrown. Other threads may make all calls: observers
+   * of ProgressEvent, which ITK calls only on the thread that called the filter, are called once more at the end. */
+  template <typename TWork>
+  static void
+  ForEach(ProcessObject & filter, SizeValueType count, const TWork & work)
+  {
+    ThreadFailure failure;
+    std::atomic<SizeValueType> next{ 0 };
+    const auto workAtRest = [&](SizeValueType) {
+      for (SizeValueType n = next++; n < count; n = next++)
+      {
+        failure.Capture([&] {
+          CheckAbort(filter);
+          work(n);
+        });
+      }
+    };
+    MultiThreaderBase * const threader = filter.GetMultiThreader();
+    threader->SetNumberOfWorkUnits(filter.GetNumberOfWorkUnits());
+    threader->ParallelizeArray(0, std::min<SizeValueType>(count, filter.GetNumberOfWorkUnits()), workAtRest, nullptr);
+    failure.Rethrow();
+    filter.IncrementProgress(0.0f);
+    CheckAbort(filter);
+  }
+
+  /** The same for the filter whose progress this is. */
   template <typename TWork>
   void
   ForEach(SizeValueType count, const TWork & work)
   {
-    ForEachOnWorkUnits(m_Filter, count, [&](SizeValueType n) {
-      this->CheckAbort();
-      work(n);
-    });
+    ForEach(m_Filter, count, work);
   }
 
   /** The work that has been counted. */

@@ -392,7 +392,6 @@ FCCLabelSurfaceFilter::GenerateData()
   WorkProgress progress(*this, box.GetDepth());
   std::vector<WallsOfSlab> slabs(box.GetDepth()); // each at its first plane
   ForEachSlab(*this, box.GetDepth(), 1, 64, [&](SizeValueType begin, SizeValueType end) {
-    progress.CheckAbort();
     PlaneWindow window(box, begin);
     WallsOfSlab walls;
     window.Get(0).Number(0);

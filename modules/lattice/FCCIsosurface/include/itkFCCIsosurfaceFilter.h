@@ -713,7 +713,6 @@ private:
     const SizeValueType count = planes.end - planes.begin;
     const SizeValueType amount = AmountOf(share);
     itk::ForEachSlab(*this, count, inOneGo.least, inOneGo.most, [&](SizeValueType begin, SizeValueType end) {
-      m_WorkProgress->CheckAbort();
       work(planes.begin + begin, planes.begin + end);
       m_WorkProgress->Completed(amount * end / count - amount * begin / count);
     });
