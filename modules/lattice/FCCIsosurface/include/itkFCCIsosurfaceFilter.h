@@ -575,7 +575,7 @@ private:
     {
       surface.GetPoints().resize(points);
       surface.GetNormals().resize(m_ComputeNormals ? points : 0);
-      surface.GetTriangles().resize(extractor.GetMostTriangles());
+      surface.GetTriangles().resize(extractor.GetNumberOfTriangles());
     }
   }
 

@@ -138,9 +138,9 @@ public:
     return m_FirstPoint[m_End] - m_FirstPoint[m_Begin];
   }
 
-  /** At least the number of triangles of these planes, known once resolved. */
+  /** The number of triangles of these planes before Finish(), known once resolved. */
   SizeValueType
-  GetMostTriangles() const
+  GetNumberOfTriangles() const
   {
     return m_FirstTriangle[m_End] - m_FirstTriangle[m_Begin];
   }
@@ -149,7 +149,7 @@ public:
   virtual void
   Fill(SizeValueType begin, SizeValueType end, TriangleSurface & surface) = 0;
 
-  /** Removes the room that the surface did not need. */
+  /** Removes triangles that close a surface which is to be open. */
   virtual void
   Finish(TriangleSurface &)
   {}
@@ -184,7 +184,7 @@ protected:
   const FCCSigns & m_Signs;
   FCCScalarField m_Field;
   std::vector<SizeValueType> m_FirstPoint;    ///< by plane: the count until Resolve(); at the end the sum
-  std::vector<SizeValueType> m_FirstTriangle; ///< the same for triangles, or for the most there can be
+  std::vector<SizeValueType> m_FirstTriangle; ///< the same for triangles
   SizeValueType m_Begin = 0;                  ///< the planes of the surface to fill
   SizeValueType m_End;                        ///< and the plane behind them
 };

@@ -35,8 +35,7 @@ MakeFCCCellExtractor(const FCCSigns & signs, const FCCScalarField & field, FCCCe
  * topology (see FCCSplitSites).
  *
  * Count() reads the values and keeps the nearer ends of the crossings, less than a byte for each crossing. Resolve()
- * splits sites. Finish() moves the triangles of all slabs together, and removes triangles that close a surface that is
- * to stay open. */
+ * splits sites. Finish() removes triangles that close a surface that is to stay open. */
 std::unique_ptr<FCCSurfaceExtractor>
 MakeFCCLeanExtractor(const FCCSigns & signs, const FCCScalarField & field);
 

@@ -2,10 +2,8 @@
 #include "itkFCCExtractors.h"
 #include "itkFCCLeanMarching.h"
 #include "itkFCCSplitSites.h"
-#include "rhombicForEachBlock.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace itk
 {
@@ -72,7 +70,6 @@ public:
     : FCCSurfaceExtractor(signs, field)
     , m_Splits(signs, field.scratch)
     , m_NearerEnds(signs.GetDepth())
-    , m_Filled(signs.GetDepth())
   {}
 
   bool
@@ -96,7 +93,6 @@ public:
 private:
   FCCSplitSites m_Splits;
   std::vector<FCCNearerEnds::Packed> m_NearerEnds; ///< by plane
-  std::vector<SizeValueType> m_Filled;             ///< by plane: the number of triangles of the slab that began there
   std::vector<std::uint8_t> m_AreOutside;          ///< by point, unless closed: whether its site is outside the image
 };
 
@@ -165,8 +161,7 @@ FCCLeanExtractor::Fill(SizeValueType begin, SizeValueType end, TriangleSurface &
   {
     planes.Find(begin - 1, findNearerEnds);
   }
-  TriangleSurface::TriangleType * const triangles = surface.GetTriangles().data() + this->PlaceOfTriangles(begin);
-  SizeValueType filled = 0;
+  TriangleSurface::TriangleType * triangles = surface.GetTriangles().data() + this->PlaceOfTriangles(begin);
   planes.Find(begin, findNearerEnds, m_FirstPoint[begin]);
   for (SizeValueType k = begin; k < end; ++k)
   {
@@ -186,35 +181,22 @@ FCCLeanExtractor::Fill(SizeValueType begin, SizeValueType end, TriangleSurface &
                   m_Field.closed ? nullptr : m_AreOutside.data() + m_FirstPoint[k]);
     if (k + 1 < m_Signs.GetDepth())
     {
-      filled += FillLeanTriangles({ m_Signs, k, planes.Get(k), planes.Get(k + 1) }, reversed, triangles + filled);
+      triangles += FillLeanTriangles({ m_Signs, k, planes.Get(k), planes.Get(k + 1) }, reversed, triangles);
     }
   }
-  m_Filled[begin] = filled;
 }
 
 void
 FCCLeanExtractor::Finish(TriangleSurface & surface)
 {
-  auto & triangles = surface.GetTriangles();
-  const auto ofPlane = [&](SizeValueType n) { return triangles.begin() + this->PlaceOfTriangles(m_Begin + n); };
-  std::vector<SizeValueType> places(m_End - m_Begin + 1, 0);
-  rhombic::ForEachInBlocks(m_End - m_Begin, 1, [&](SizeValueType n) {
-    const auto first = ofPlane(n);
-    auto last = first + m_Filled[m_Begin + n];
-    if (!m_Field.closed)
-    {
-      last = std::remove_if(first, last, [this](const TriangleSurface::TriangleType & triangle) {
-        return (m_AreOutside[triangle[0]] | m_AreOutside[triangle[1]] | m_AreOutside[triangle[2]]) != 0;
-      });
-    }
-    places[n + 1] = static_cast<SizeValueType>(last - first);
-  });
-  std::partial_sum(places.begin(), places.end(), places.begin());
-  TriangleSurface::TrianglesContainer joined(places.back());
-  rhombic::ForEachInBlocks(m_End - m_Begin, 1, [&](SizeValueType n) {
-    std::copy_n(ofPlane(n), places[n + 1] - places[n], joined.begin() + places[n]);
-  });
-  triangles.swap(joined);
+  if (!m_Field.closed)
+  {
+    auto & triangles = surface.GetTriangles();
+    const auto isOutside = [this](const TriangleSurface::TriangleType & triangle) {
+      return (m_AreOutside[triangle[0]] | m_AreOutside[triangle[1]] | m_AreOutside[triangle[2]]) != 0;
+    };
+    triangles.erase(std::remove_if(triangles.begin(), triangles.end(), isOutside), triangles.end());
+  }
 }
 
 } // namespace

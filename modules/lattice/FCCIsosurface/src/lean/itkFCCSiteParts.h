@@ -126,8 +126,8 @@ public:
     return row.parts[CountBefore(row.bits, i)];
   }
 
-  /** Splits a site, or divides it anew. Returns whether it had not been split. */
-  bool
+  /** Splits a site, or divides it anew. */
+  void
   Set(SizeValueType i, SizeValueType j, SizeValueType k, const FCCSiteParts & parts)
   {
     auto & row = m_Rows[k * m_Height + j];
@@ -140,11 +140,10 @@ public:
     if (FCCBits::Test(row->bits.data(), i))
     {
       *place = parts;
-      return false;
+      return;
     }
     row->parts.insert(place, parts);
     row->bits[i / FCCBits::WordBits] |= WordType{ 1 } << (i % FCCBits::WordBits);
-    return true;
   }
 
 private:

@@ -111,6 +111,7 @@ public:
     std::iota(std::begin(m_Vertices), std::end(m_Vertices), VertexType{ 0 });
     this->FindTriangles(star);
     this->SetParts(m_Parts[Center]);
+    m_TrianglesBefore = this->IsSplit(Center) ? this->CountOwnTriangles() : LayerCounts{};
   }
 
   const FCCSiteParts &
@@ -167,27 +168,35 @@ public:
     }
   }
 
-  /** The most triangles that the tetrahedra with crossings of the site can have: between the plane below and its own,
-   * and between its own and the plane above. These are the triangles before clustering. */
-  std::array<SizeValueType, 2>
-  GetMostTriangles() const
+  /** How many triangles division has added, which a vertex of all its crossings would leave without area. */
+  FCCSplitSites::LayerCounts
+  CountAddedTriangles() const
   {
-    return m_MostTriangles;
+    const LayerCounts now = this->CountOwnTriangles();
+    return { now[0] - m_TrianglesBefore[0], now[1] - m_TrianglesBefore[1] };
   }
 
 private:
+  using LayerCounts = FCCSplitSites::LayerCounts;
   static constexpr unsigned int Center = FCCSiteStar::Center;
 
   /** A vertex of the star. That of another site is the first of the edges whose crossings it has; that of the center is
    * FirstOfCenter and its number in the center's parts. So sets of vertices are the bits of a word. */
   using VertexType = std::uint8_t;
   static constexpr unsigned int FirstOfCenter = FCCSiteStar::Edges;
-  static_assert(FirstOfCenter + FCCCells::Directions <= 64, "a word has a bit for each vertex");
+  static_assert(std::max(FirstOfCenter + FCCCells::Directions, 2 * FCCSiteStar::Tetrahedra) <= 64, "bits of one word");
 
   static constexpr std::uint64_t
   BitOf(VertexType vertex)
   {
     return std::uint64_t{ 1 } << vertex;
+  }
+
+  /** Corners of one vertex leave no triangle. */
+  static bool
+  IsTriangle(VertexType a, VertexType b, VertexType c)
+  {
+    return (a != b) & (b != c) & (c != a);
   }
 
   static bool
@@ -275,9 +284,24 @@ private:
       }
       m_Triangles[m_NumberOfTriangles] = { polygon[0], polygon[1], polygon[2] };
       m_Triangles[m_NumberOfTriangles + 1] = { polygon[0], polygon[2], polygon[3] }; // of quadrilaterals
-      m_NumberOfTriangles += found.size - 2u;
-      m_MostTriangles[tetrahedron.isBelow ? 0 : 1] += found.size - 2u;
+      const unsigned int added = found.size - 2u;
+      m_Above |= std::uint64_t{ tetrahedron.isBelow ? 0 : (1U << added) - 1 } << m_NumberOfTriangles;
+      m_NumberOfTriangles += added;
     }
+  }
+
+  /** The triangles with two or three corners at the site. How many there are depends on no other site. */
+  LayerCounts
+  CountOwnTriangles() const
+  {
+    LayerCounts counts{};
+    for (unsigned int n = 0; n < m_NumberOfTriangles; ++n)
+    {
+      const auto [a, b, c] = m_Triangles[n];
+      const bool isOwn = (a >= FirstOfCenter) + (b >= FirstOfCenter) + (c >= FirstOfCenter) >= 2;
+      counts[m_Above >> n & 1] += isOwn && IsTriangle(m_Vertices[a], m_Vertices[b], m_Vertices[c]) ? 1 : 0;
+    }
+    return counts;
   }
 
   /** Which of some vertices, as bits, have fewer than three triangles, or an edge with more than two. */
@@ -422,8 +446,7 @@ private:
     {
       const auto [a, b, c] = m_Triangles[n];
       const VertexType vertices[3] = { m_Vertices[a], m_Vertices[b], m_Vertices[c] };
-      // Corners of one vertex leave no triangle.
-      const bool isThere = (vertices[0] != vertices[1]) & (vertices[1] != vertices[2]) & (vertices[2] != vertices[0]);
+      const bool isThere = IsTriangle(vertices[0], vertices[1], vertices[2]);
       const std::uint64_t all = BitOf(vertices[0]) | BitOf(vertices[1]) | BitOf(vertices[2]);
       for (const VertexType vertex : vertices)
       {
@@ -442,7 +465,8 @@ private:
   VertexType m_Vertices[64]; ///< by the corners of triangles, with the parts that the site has now
   unsigned int m_NumberOfTriangles{ 0 };
   Triangle m_Triangles[2 * FCCSiteStar::Tetrahedra];
-  std::array<SizeValueType, 2> m_MostTriangles{};
+  std::uint64_t m_Above{ 0 }; ///< the triangles above the site's plane, as bits
+  LayerCounts m_TrianglesBefore{};
   bool m_AreCounted{ false };
   Use m_Uses[1 + FCCCells::Directions]; ///< of all other sites, then of the site's vertices, if they are counted
 };
@@ -528,7 +552,7 @@ FCCSplitSites::DivideSuspects(SizeValueType k, unsigned int color, const FCCSurf
     FCCSiteDivision division(m_Signs, m_Split, sites[n].star, { sites[n].number % width, sites[n].number / width, k });
     if (division.Divide())
     {
-      m_Planes[k].divided.push_back({ sites[n].number, division.GetParts(), division.GetMostTriangles() });
+      m_Planes[k].divided.push_back({ sites[n].number, division.GetParts(), division.CountAddedTriangles() });
       division.ForEachBrokenNeighbor([&](const auto & neighbor) { broken.push_back(neighbor); });
     }
   }
@@ -545,17 +569,11 @@ FCCSplitSites::SetDivided(SizeValueType k, std::vector<SizeValueType> & triangle
   const SizeValueType width = m_Signs.GetWidth();
   std::vector<DividedSite> divided;
   divided.swap(m_Planes[k].divided);
-  for (const auto & [number, parts, mostTriangles] : divided)
+  for (const auto & [number, parts, added] : divided)
   {
-    const bool isNew = m_Split.Set(number % width, number / width, k, parts);
-    if (isNew)
-    {
-      triangles[k] += mostTriangles[1];
-      if (k > 0)
-      {
-        triangles[k - 1] += mostTriangles[0];
-      }
-    }
+    m_Split.Set(number % width, number / width, k, parts);
+    triangles[k] += added[1];
+    k > 0 ? void(triangles[k - 1] += added[0]) : void();
   }
 }
 

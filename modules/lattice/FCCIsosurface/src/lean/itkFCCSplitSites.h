@@ -30,6 +30,9 @@ public:
   /** \param signs with a layer of sites around the image; must outlive this */
   FCCSplitSites(const FCCSigns & signs, std::pmr::memory_resource * scratch);
 
+  /** Numbers of triangles between the plane below a site and its own, and between its own and the plane above. */
+  using LayerCounts = std::array<SizeValueType, 2>;
+
   /** Nearer ends of the planes below, at and above another. */
   using NearerEndsAround = std::array<const FCCNearerEnds *, 3>;
 
@@ -39,8 +42,8 @@ public:
   Suspect(SizeValueType k, const std::vector<std::uint32_t> & numbers, const NearerEndsAround & nearerEnds);
 
   /** Divides sites until no vertex breaks a condition. Before, \a points and \a triangles are the numbers of points of
-   * each plane and of triangles between it and the next when all sites are whole. Afterwards, \a points is right, and
-   * \a triangles is at least right. \param nearerEnds of all planes */
+   * each plane and of triangles between it and the next when all sites are whole. Afterwards, they are
+   * the numbers with the sites divided. \param nearerEnds of all planes */
   void
   Resolve(const std::vector<FCCNearerEnds::Packed> & nearerEnds,
           const FCCSurfaceExtractor::Workers & workers,
@@ -72,7 +75,7 @@ private:
   {
     std::uint32_t number;
     FCCSiteParts parts;
-    std::array<SizeValueType, 2> mostTriangles;
+    LayerCounts added; ///< triangles
   };
 
   struct Plane
