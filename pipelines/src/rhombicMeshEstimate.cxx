@@ -148,7 +148,7 @@ BytesForViews(const MeshEstimate & mesh)
 std::vector<std::size_t>
 FindSlicePairs(const itk::Size<3> & size)
 {
-  constexpr std::size_t voxels = std::size_t{ 1 } << 25, fewest = 6;
+  constexpr std::size_t voxels = std::size_t{ 1 } << 24, fewest = 6;
   const std::size_t last = std::max<std::size_t>(size[2], 2) - 2; // the first slice of the last pair
   const std::size_t pairs = std::min(std::max(voxels / (2 * size[0] * size[1]), fewest), last + 1);
   std::vector<std::size_t> first(pairs, 0);
