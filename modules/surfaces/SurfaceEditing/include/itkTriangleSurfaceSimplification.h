@@ -54,7 +54,7 @@ struct TriangleSurfaceSimplificationReport
  *
  * The distance between the two surfaces is checked in both directions against maximumError: while edges collapse, at
  * the points of the original, and then for all triangles of both surfaces. Where nearness is not proven for all of a
- * triangle, it is checked at points a quarter of its sides apart, the centres against 0.9 maximumError; between these
+ * triangle, it is checked at points an eighth of its sides apart, the centres against 0.9 maximumError; between these
  * points, rough detail much larger than maximumError may be farther away.
  *
  * The surface is cut into patches of some thousand triangles. Where a check fails, the last collapses are taken back.

@@ -52,7 +52,7 @@ struct ProximityProof
  * points within a distance of a triangle are a convex set. A piece is also near if its centre is nearer than the
  * distance by at least the distance from the centre to the farthest corner. Other pieces are cut along the border of
  * the triangle of the surface that is nearest to their centre, seen along that triangle's normal: what lies over the
- * triangle is then near it, or is cut further. Pieces are no longer cut when their longest side is below a quarter of
+ * triangle is then near it, or is cut further. Pieces are no longer cut when their longest side is below an eighth of
  * that of the triangle and of the nearest triangle of the surface: then the corners must be near and the centre within
  * 0.9 times the distance. So the answer yes is proven except between these points, no farther than 0.1 of that side
  * from one of these points.
@@ -132,11 +132,11 @@ public:
   }
 
 private:
-  static constexpr double SmallestShareOfSide = 0.25; ///< smaller pieces are not cut
-  static constexpr double NearForCentres = 0.9;       ///< relative to the distance
-  static constexpr double LeastInside = 0.0625;       ///< of centres, relative to the farthest corner's distance
-  static constexpr unsigned int MostCuts = 48;        ///< into halves
-  static constexpr unsigned int ManyCorners = 8;      ///< a cut across pieces of more would leave too many
+  static constexpr double SmallestShareOfSide = 0.125; ///< smaller pieces are not cut
+  static constexpr double NearForCentres = 0.9;        ///< relative to the distance
+  static constexpr double LeastInside = 0.0625;        ///< of centres, relative to the farthest corner's distance
+  static constexpr unsigned int MostCuts = 48;         ///< into halves
+  static constexpr unsigned int ManyCorners = 8;       ///< a cut across pieces of more would leave too many
 
   /** A convex part of the triangle. */
   struct Piece
