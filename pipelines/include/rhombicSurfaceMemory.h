@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 
 namespace rhombic
 {
@@ -33,6 +34,10 @@ struct SurfaceWork
  * program itself takes. */
 std::uintmax_t
 AllowedBytes(const ScanSource & source);
+
+/** The steps of the isosurfaces. */
+MeshSteps
+FindSteps(const SurfaceWork & work);
 
 /** Counts the steps of isosurfaces, and plans temporary files for those that the memory can't hold. Throws
  * Failure(Memory) where there is no room for them. Those of parts that need the whole lattice stay in memory, as those
@@ -69,6 +74,10 @@ FitDrawn(MeshEstimate & mesh, const SurfaceWork & work, const CountDrawing & cou
 /** The same for labels. \param isInFiles is set */
 std::uintmax_t
 FitDrawn(LabelWork & labels, const SurfaceWork & work, const CountDrawing & countDrawing, bool & isInFiles);
+
+/** What is to be said of a picture that likely takes more than is allowed; else empty. */
+std::string
+DoubtDrawing(std::uintmax_t bytes, const ScanSource & source);
 
 /** \class SurfacesInFiles
  * \brief From a call of Put() on, arrays are in temporary files; a note says so. */

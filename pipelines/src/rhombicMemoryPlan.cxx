@@ -132,17 +132,19 @@ DescribeTime(double seconds)
                             : "some " + FormatFixed(seconds / 3600.0, 1) + " hours";
 }
 
-/** Estimated from 2048^3 voxels on two threads of a machine that others used, too (pipelines/README.md).
+/** Estimated from what a thread does in a second (pipelines/README.md).
  * \param passes over the lattice */
 double
-EstimateSeconds(const UnreadSource & unread, const LatticePlan & plan, double passes, double triangles)
+EstimateSeconds(const UnreadSource & unread, const LatticePlan & plan, double passes, double triangles, bool simplifies)
 {
-  constexpr double voxelsOfThread = 35e6;     // that go onto the lattice in a second
-  constexpr double trianglesOfThread = 0.1e6; // that are extracted, untangled, written and checked in a second
+  constexpr double voxelsAtFirst = 60e6;                  // that are read and put onto the lattice
+  constexpr double voxelsAgain = 150e6;                   // the same by a further pass
+  const double trianglesMade = simplifies ? 0.05e6 : 1e6; // extracted, untangled, finished, written and checked
   const auto voxels =
     static_cast<double>(GeometryOf(unread.file.scan.image).GetLargestPossibleRegion().GetNumberOfPixels());
+  const double again = plan.slabs > 1 ? passes - 1.0 : 0.0;
   const double threads = itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads();
-  return (voxels * (plan.slabs > 1 ? passes : 1.0) / voxelsOfThread + triangles / trianglesOfThread) / threads;
+  return (voxels / voxelsAtFirst + again * voxels / voxelsAgain + triangles / trianglesMade) / threads;
 }
 
 std::string
@@ -162,9 +164,9 @@ DescribeMemory(std::uintmax_t bytes, std::uintmax_t limit)
 }
 
 std::string
-DescribeDrawing(std::uintmax_t bytes)
+DescribeDrawing(std::uintmax_t bytes, const ScanSource & source)
 {
-  return bytes > 0 ? ", then " + DescribeBytes(bytes) + " to draw them" : "";
+  return bytes > 0 ? ", then " + DescribeBytes(bytes) + " to draw them" + DoubtDrawing(bytes, source) : "";
 }
 
 std::string
@@ -203,6 +205,7 @@ struct SurfacePlanning
   std::function<std::uintmax_t(LabelWork & labels, bool & isInFiles)> checkLabels;
   FindPart findPart; ///< empty: all
   bool isMeasured;   ///< whether the volume that isosurfaces enclose is estimated from the lattice
+  bool simplifies;
 };
 
 /** How often the lattice is made in slabs: by extraction, of what is above and of what is below isovalues, and for the
@@ -294,7 +297,7 @@ PlanLabels(const SurfacePlanning & planning, const UnreadSource & unread)
     text += DescribeSurfaces(planning, plan.work.triangles, plan.inFiles);
   }
   return text + "memory        " + DescribeMemory(unread.CountInMemory() + plan.inMemory, source.read.maximumMemory) +
-         DescribeDrawing(plan.drawing) + '\n' + DescribeUnwritten(planning.output);
+         DescribeDrawing(plan.drawing, source) + '\n' + DescribeUnwritten(planning.output);
 }
 
 /** The plan of labels beside a scan, whose map is read. */
@@ -362,8 +365,9 @@ PlanSurfaces(const SurfacePlanning & planning, const Events & events)
   if (!known.empty())
   {
     text += DescribeSurfaces(planning, mesh.triangles, mesh.temporaryBytes);
-    text +=
-      "time          " + DescribeTime(EstimateSeconds(unread, plan, CountPasses(planning), mesh.triangles)) + '\n';
+    text += "time          " +
+            DescribeTime(EstimateSeconds(unread, plan, CountPasses(planning), mesh.triangles, planning.simplifies)) +
+            '\n';
   }
   else if (!requests.empty())
   {
@@ -379,7 +383,7 @@ PlanSurfaces(const SurfacePlanning & planning, const Events & events)
   return text + "memory        " + DescribeMemory(volumes, source.read.maximumMemory) +
          (known.empty() ? "" : ", then " + DescribeBytes(mesh.bytes.afterwards) + " for the surfaces") +
          (labels.inMemory == 0 ? "" : ", then " + DescribeBytes(labels.inMemory) + " for the labels") +
-         DescribeDrawing(std::max(drawing, labels.drawing)) + '\n' + DescribeUnwritten(planning.output);
+         DescribeDrawing(std::max(drawing, labels.drawing), source) + '\n' + DescribeUnwritten(planning.output);
 }
 
 } // namespace
@@ -396,7 +400,15 @@ PlanMeshScan(const MeshScanSettings & settings, const Events & events)
     isInFiles = FitIntoMemory(labels, WorkOf(settings));
     return 0;
   };
-  return PlanSurfaces({ settings.source, settings.surfaces, settings.mesh, check, checkLabels, {}, true }, events);
+  return PlanSurfaces({ settings.source,
+                        settings.surfaces,
+                        settings.mesh,
+                        check,
+                        checkLabels,
+                        {},
+                        true,
+                        FindSteps(WorkOf(settings)).simplifies },
+                      events);
 }
 
 std::string
@@ -410,7 +422,8 @@ PlanPictures(const SurfaceWork & work,
   const auto checkLabels = [&](LabelWork & labels, bool & isInFiles) {
     return FitDrawn(labels, work, countDrawing, isInFiles);
   };
-  return PlanSurfaces({ work.source, work.surfaces, picture, check, checkLabels, findPart, false }, events);
+  return PlanSurfaces(
+    { work.source, work.surfaces, picture, check, checkLabels, findPart, false, FindSteps(work).simplifies }, events);
 }
 
 std::string
@@ -425,7 +438,7 @@ PlanResampleScan(const ResampleScanSettings & settings, const Events & events)
   LatticeStream stream;
   const LatticePlan plan = PlanLattice(unread, settings.source.lattice, stream, events);
   return "voxels        " + DescribePlace(unread, settings.source.read) + "\nlattice       " +
-         DescribeLattice(plan, 1) + "\ntime          " + DescribeTime(EstimateSeconds(unread, plan, 1.0, 0.0)) +
+         DescribeLattice(plan, 1) + "\ntime          " + DescribeTime(EstimateSeconds(unread, plan, 1.0, 0.0, false)) +
          "\nmemory        " +
          DescribeMemory(unread.CountInMemory() + plan.peak - plan.scanBytes, settings.source.read.maximumMemory) +
          '\n' + DescribeUnwritten(settings.volume);

@@ -75,8 +75,8 @@ AllowedBytes(const ScanSource & source)
   return std::max(MemoryAllowance(most > 0 ? most : FreeMemory()), small);
 }
 
-void
-FitIntoMemory(MeshEstimate & mesh, const SurfaceWork & work)
+MeshSteps
+FindSteps(const SurfaceWork & work)
 {
   MeshSteps steps;
   for (const SurfaceRequest & request : work.surfaces.requests)
@@ -87,7 +87,13 @@ FitIntoMemory(MeshEstimate & mesh, const SurfaceWork & work)
   }
   steps.colours = work.colourBy.has_value();
   steps.audits = work.audits;
-  CountSteps(steps, mesh);
+  return steps;
+}
+
+void
+FitIntoMemory(MeshEstimate & mesh, const SurfaceWork & work)
+{
+  CountSteps(FindSteps(work), mesh);
   const std::uintmax_t allowed = AllowedBytes(work.source);
   const bool fits = mesh.bytes.afterwards <= allowed;
   const bool leavesHalf = mesh.bytes.besideSlab - mesh.bits <= allowed / 2; // to slabs
@@ -160,6 +166,15 @@ FitDrawn(LabelWork & labels, const SurfaceWork & work, const CountDrawing & coun
   const double ofWalls = AreAllDrawn(work) ? 0.8 : 2.0; // both sides of walls, in fewer triangles or all; measured
   isInFiles = FitIntoMemory(labels, work);
   return countDrawing ? countDrawing({ 0.0, ofWalls * labels.triangles }) : 0; // flat walls have few triangles
+}
+
+std::string
+DoubtDrawing(std::uintmax_t bytes, const ScanSource & source)
+{
+  const std::uintmax_t allowed = MemoryAllowance(source.lattice.maximumMemory);
+  return bytes <= allowed ? ""
+                          : ", more than the " + DescribeBytes(allowed) +
+                              " that are allowed, so that the picture may be refused once the surfaces are made";
 }
 
 void

@@ -256,4 +256,8 @@ TEST_F(LargePictures, PlansTellWhatDrawingTakes)
   EXPECT_GT(large, small + 1.0);
   settings.render.width = settings.render.height = 0; // then 1200 pixels
   EXPECT_EQ(mebibytesToDraw(), large);
+  settings.source.finish.keepsLargestPart = true; // may leave few triangles
+  EXPECT_EQ(PlanRenderScan(settings, {}).find("may be refused"), std::string::npos);
+  settings.source.scan.lattice.maximumMemory = static_cast<std::uintmax_t>(std::ldexp(large - 1.0, 20));
+  EXPECT_NE(PlanRenderScan(settings, {}).find("may be refused"), std::string::npos);
 }

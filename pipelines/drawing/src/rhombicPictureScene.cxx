@@ -8,6 +8,7 @@
 #include "rhombicGreyWindow.h"
 #include "rhombicLabelTable.h"
 #include "rhombicMeasureTable.h"
+#include "rhombicMemoryBudget.h"
 #include "rhombicMemoryPlan.h"
 #include "rhombicSourceSurfaces.h"
 #include "rhombicSurfaceIO.h"
@@ -187,7 +188,11 @@ MakeSceneOfScan(const PictureSource & source,
   SurfaceViewing viewing = use.viewing.value_or(SurfaceViewing());
   ScanSource streamed = StreamedSource(source, use, keepsAll);
   streamed.checkMesh = [&](MeshEstimate & mesh) {
-    FitDrawn(mesh, work, use.countDrawing);
+    const std::uintmax_t drawing = FitDrawn(mesh, work, use.countDrawing);
+    if (const std::string doubt = DoubtDrawing(drawing, source.scan); !doubt.empty())
+    {
+      events.Note("drawing the surfaces will take some " + DescribeBytes(drawing) + doubt);
+    }
     inFiles->Put(mesh, source.scan, events);
     viewing.maximumMemory = inFiles->IsUsed() ? std::numeric_limits<std::uintmax_t>::max() : viewing.maximumMemory;
   };
