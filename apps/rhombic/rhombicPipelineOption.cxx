@@ -1,3 +1,4 @@
+#include "rhombicAtomicFile.h"
 #include "rhombicCommandLine.h"
 #include "rhombicScanOptions.h"
 #include "rhombicWording.h"
@@ -97,12 +98,7 @@ RunPipeline(const std::string & file, const CommandContext & context)
   batchCase.scan = given["scan"].get<std::string>();
   batchCase.labels = labels.empty() ? "" : labels[0].get<std::string>();
 
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-  {
-    throw Failure(FailureKind::Output, "Cannot write to the folder " + folder + ": " + error.message() + ".");
-  }
+  MakeOutputFolder(folder);
   std::vector<Report> steps;
   for (const PipelineStep & step : pipeline.steps)
   {

@@ -1,5 +1,7 @@
 
 #include "rhombicComparisonSteps.h"
+
+#include "rhombicAtomicFile.h"
 #include "rhombicFailure.h"
 #include "rhombicPictureIO.h"
 #include "rhombicSidecar.h"
@@ -77,7 +79,7 @@ RunComparison(const ComparisonRequest & request, const ComparisonSettings & sett
   std::vector<ExperimentResult> results;
   std::vector<std::vector<PagePicture>> pictures;
   StagedFiles staged;
-  std::filesystem::create_directories(settings.output);
+  MakeOutputFolder(settings.output);
   for (const Experiment & experiment : request.experiments)
   {
     if (settings.only.empty() || settings.only == experiment.name)

@@ -86,6 +86,10 @@ private:
   std::vector<std::unique_ptr<AtomicFile>> m_Files;
 };
 
+/** Makes a folder for output files, and those above it. Throws Failure(Output) where it can't be made. */
+void
+MakeOutputFolder(const std::filesystem::path & folder);
+
 /** Makes SIGINT, SIGTERM and SIGHUP remove the temporary files of all AtomicFiles before they end the process as usual.
  * Signals that are ignored, as SIGHUP under nohup, stay ignored. SIGXFSZ is ignored, so that a file beyond the
  * process's size limit becomes an error of its writer. SIGBUS, which a mapped file causes that has become shorter, ends

@@ -292,6 +292,17 @@ StagedFiles::Commit()
 }
 
 void
+MakeOutputFolder(const fs::path & folder)
+{
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+  {
+    throw Failure(FailureKind::Output, "Cannot make the folder " + folder.string() + ": " + error.message() + ".");
+  }
+}
+
+void
 RemoveTemporaryFilesOnSignals()
 {
   for (const int signal : { SIGINT, SIGTERM, SIGHUP })
