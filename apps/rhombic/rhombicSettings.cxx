@@ -228,10 +228,19 @@ CommandSettings::SetRecorded(Report settings)
 {
   for (const SettingRow & row : m_Rows)
   {
-    if (row.kind == SettingKind::Source)
+    if (row.kind != SettingKind::Source || !settings.contains(row.key))
     {
-      settings.erase(row.key);
+      continue;
     }
+    const std::size_t recorded = ToTexts(settings[row.key]).size();
+    if (row.option->count() < recorded)
+    {
+      const std::string name = row.option->get_lnames().empty() ? row.option->get_name() : "--" + row.key;
+      const std::string all = recorded > 1 ? std::to_string(recorded) + " " + name : name;
+      throw Failure(FailureKind::Usage,
+                    "The report was made with " + all + ", of which it holds no names; give " + all + " again.");
+    }
+    settings.erase(row.key);
   }
   this->Set(settings);
 }

@@ -188,7 +188,8 @@ public:
   void
   Set(const Report & settings);
 
-  /** As Set(), of what GetRecorded() gave, but for scans, series and label maps, of which reports hold no names. */
+  /** As Set(), of what GetRecorded() gave, but for scans, series and label maps, of which reports hold no names. Throws
+   * Failure(Usage) where fewer of these are given than were recorded. */
   void
   SetRecorded(Report settings);
 

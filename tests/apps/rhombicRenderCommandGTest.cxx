@@ -292,11 +292,22 @@ TEST_F(RenderCommand, AReportOfBeforeMakesItsPictureAgain)
   RunWell("render " + phantomScan + options + " -o first.png");
   std::ofstream(m_Folder.Path() / "old.json")
     << R"({"command": "rhombic -q render SCAN", "arguments": ["-q", "--threads",
-    "2", "render", "SCAN", "--preset", "auto", "--view", "left", "--size=150", "--labels", "LABELS", "-ofirst.png",
-    "--window", "bone", "--dicom-sc"]})";
+    "2", "render", "SCAN", "--preset", "auto", "--view", "left", "--size=150", "-ofirst.png", "--window", "bone",
+    "--dicom-sc"]})";
   RunWell("render " + phantomScan + " --from old.json -o second.png");
   EXPECT_EQ(Bytes("first.png"), Bytes("second.png"));
   EXPECT_FALSE(fs::exists(m_Folder.Path() / "second.dcm"));
+}
+
+TEST_F(RenderCommand, AReportOfLabelsMakesItsPictureAgainOnlyWithLabels)
+{
+  const std::string labels = " --labels " + phantomLabels;
+  RunWell("render " + phantomScan + labels + " --only liver --size 150 -o first.png");
+  const Outcome refused = Run("render " + phantomScan + " --from first.png.json -o second.png");
+  EXPECT_EQ(refused.exitCode, 2);
+  EXPECT_NE(refused.errors.find("give --labels again"), std::string::npos) << refused.errors;
+  RunWell("render " + phantomScan + labels + " --from first.png.json -o second.png");
+  EXPECT_EQ(Bytes("first.png"), Bytes("second.png"));
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // which keep memory for themselves

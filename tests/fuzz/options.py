@@ -166,7 +166,8 @@ class Runs:
         before = hashes(self.folder)
         report = os.path.join(self.folder, "o.png.json")
         if arguments[0] == "render" and report in files and not any("o-" in path or ".dcm" in path for path in files):
-            again = self.run(["render", arguments[1], "--from", report, "--output", os.path.join(self.folder, "again.png")])
+            again = ["render", arguments[1], "--from", report, "--output", os.path.join(self.folder, "again.png")]
+            again = self.run(again + [a for a in arguments if re.match("--(labels|probabilities|colour-by|series)=", a)])
             after = hashes(self.folder)
             if again is None or again.returncode != 0 or after.get("again.png") != after.get("o.png"):
                 return "its report does not make it again" + ("" if again is None else f": {again.stderr[-300:]}")
