@@ -17,6 +17,7 @@
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
+#include <fcntl.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -25,6 +26,19 @@ namespace
 {
 
 using namespace rhombic;
+
+/** Puts streams that fail in the places of standard streams that are closed, which files would be opened in. */
+void
+OccupyClosedStreams()
+{
+  for (const int stream : { STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO })
+  {
+    if (fcntl(stream, F_GETFD) < 0)
+    {
+      open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY); // as the lowest free descriptor
+    }
+  }
+}
 
 /** Raises the limit of open files to the system's: each output keeps a file open until all are renamed. */
 void
@@ -141,6 +155,12 @@ Run(CommandLine & commandLine, const std::vector<std::string> & words, bool isRe
   {
     std::cout << ToJson(ReportOutputs(outputs));
   }
+}
+
+/** Throws Failure(Output). */
+void
+FlushStandardOutput()
+{
   if (!std::cout.flush())
   {
     throw Failure(FailureKind::Output, "Cannot write to standard output; is the disk full, or the pipe closed?");
@@ -153,6 +173,7 @@ int
 main(int argc, char ** argv)
 {
   setenv("EGL_LOG_LEVEL", "fatal", 0); // Mesa would warn of missing drivers beside our own sentence
+  OccupyClosedStreams();
   RemoveTemporaryFilesOnSignals();
   RaiseFileLimit();
   KeepFreedMemory();
@@ -162,12 +183,16 @@ main(int argc, char ** argv)
   const bool isRequested = words == std::vector<std::string>{ RequestOption };
   try
   {
-    Run(commandLine, words, isRequested, console);
+    try
+    {
+      Run(commandLine, words, isRequested, console);
+    }
+    catch (const CLI::Success & asked)
+    {
+      commandLine.Print(asked);
+    }
+    FlushStandardOutput();
     return 0;
-  }
-  catch (const CLI::Success & asked)
-  {
-    return commandLine.Print(asked);
   }
   catch (const std::exception &)
   {

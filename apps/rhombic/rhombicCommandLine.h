@@ -75,11 +75,11 @@ public:
     return m_Options;
   }
 
-  /** Prints what --help or --version asked for; returns the exit code. */
-  int
+  /** Prints what --help or --version asked for. */
+  void
   Print(const CLI::Success & asked) const
   {
-    return m_Parser.exit(asked);
+    m_Parser.exit(asked);
   }
 
 private:

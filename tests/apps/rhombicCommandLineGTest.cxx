@@ -193,6 +193,9 @@ constexpr ErrorCase errorCases[] = {
   { "BadPresetOpacity", "render scan.nii.gz --preset opacity.yaml -o a.png", 4, "opacity.yaml" },
   { "PresetWithoutIsovalue", "render scan.nii.gz --preset bare.yaml -o a.png", 4, "isovalue" },
   { "OutputClosed", "info scan.nii.gz >/dev/full", 7, "standard output" },
+  { "OutputOfHelpClosed", "mesh --help >/dev/full", 7, "standard output" },
+  { "OutputNotOpen", "info scan.nii.gz >&-", 7, "standard output" },
+  { "ComparisonInNoFolder", "compare '" RHOMBIC_SOURCE "/tests/apps/accuracy.yaml' -o /proc/a", 7, "make the folder" },
   { "NegativeSpacing", "render scan.nii.gz --preset ct-bone --spacing=-1 -o a.png", 2, "spacing" },
   { "BadOnGap", "info dicom --on-gap=guess", 2, "interpolate or error" },
   { "BadOnIrregular", "info dicom --on-irregular=bend", 2, "resample or error" },
@@ -348,6 +351,15 @@ TEST(CommandLine, RequestsEndWithTheProcessThatMakesThem)
   EXPECT_EQ(request("$$").exitCode, 0) << request("$$").output;
   EXPECT_EQ(request("1").exitCode, 1);
   EXPECT_EQ(request("1").output, "");
+}
+
+TEST(CommandLine, NoFileTakesThePlaceOfAStandardStreamThatIsClosed)
+{
+  const TemporaryFolder folder;
+  const std::string mesh = "mesh '" + phantomNifti + "' -t 375.5 --no-sidecar -o ";
+  ASSERT_EQ(Rhombic(mesh + "open.stl", folder.Path()).exitCode, 0);
+  ASSERT_EQ(Rhombic(mesh + "closed.stl <&- >&- 2>&-", folder.Path()).exitCode, 0);
+  EXPECT_EQ(ReadText(folder.Path() / "open.stl"), ReadText(folder.Path() / "closed.stl"));
 }
 
 TEST(CommandLine, HelpAndVersionGoToStandardOutput)
