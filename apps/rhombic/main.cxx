@@ -7,10 +7,12 @@
 #include "itkThreadPool.h"
 
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <functional>
 #include <iostream>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -52,7 +54,9 @@ RaiseFileLimit()
   }
 }
 
-/** Has freed memory kept for the next volume or mesh: fresh pages of the system cost up to a tenth of the time. */
+/** Has freed memory kept for the next volume or mesh: fresh pages of the system cost up to a tenth of the time. Where
+ * the address space is limited, threads share the arenas of malloc(), each of which takes 64 MiB of the address space.
+ */
 void
 KeepFreedMemory()
 {
@@ -60,7 +64,34 @@ KeepFreedMemory()
   constexpr int largestKept = 1 << 30;
   mallopt(M_MMAP_THRESHOLD, largestKept);
   mallopt(M_TRIM_THRESHOLD, largestKept);
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+  {
+    mallopt(M_ARENA_MAX, 1);
+  }
 #endif
+}
+
+/** Of a thread, or of a library that is being loaded. Without memory, none is taken to tell it. */
+[[noreturn]] void
+TellOfExceptionNobodyCaught()
+{
+  if (std::current_exception())
+  {
+    try
+    {
+      throw;
+    }
+    catch (const std::bad_alloc &)
+    {
+      std::fputs("rhombic: There is not enough memory; close other programs, or allow more, as by ulimit -v.\n",
+                 stderr);
+      std::_Exit(static_cast<int>(FailureKind::Memory));
+    }
+    catch (...)
+    {}
+  }
+  std::abort();
 }
 
 /** Starts the threads of ITK's pool. Where the system has none left, this tells a failure and ends the process: what
@@ -177,6 +208,7 @@ main(int argc, char ** argv)
   RemoveTemporaryFilesOnSignals();
   RaiseFileLimit();
   KeepFreedMemory();
+  std::set_terminate(TellOfExceptionNobodyCaught);
   Console console;
   CommandLine commandLine;
   const std::vector<std::string> words(argv + 1, argv + argc);

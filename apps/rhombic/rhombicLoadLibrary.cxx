@@ -15,9 +15,11 @@ FindInLibrary(const char * library, const char * function, const char * purpose)
   void * const found = handle ? dlsym(handle, function) : nullptr;
   if (!found)
   {
-    throw Failure(FailureKind::Internal,
-                  std::string("The part of rhombic that ") + purpose + " can't be loaded: " + dlerror() +
-                    "; install rhombic again.");
+    const std::string why = dlerror();
+    const bool needsMemory = why.find("failed to map") != std::string::npos;
+    throw Failure(needsMemory ? FailureKind::Memory : FailureKind::Internal,
+                  std::string("The part of rhombic that ") + purpose + " can't be loaded: " + why +
+                    (needsMemory ? "; allow more memory, as by ulimit -v." : "; install rhombic again."));
   }
   return found;
 }

@@ -310,6 +310,30 @@ TEST(CommandLine, ThreadsThatTheSystemDoesNotStartAreRefused)
     EXPECT_TRUE(FilesIn(folder.Path()).empty()) << which;
   }
 }
+
+TEST(CommandLine, PlansAndWorkNeedTheSameAddressSpace)
+{
+  const TemporaryFolder folder;
+  for (const std::string limit : { "250000", "300000", "350000" })
+  {
+    const std::string mesh =
+      "ulimit -v " + limit + "\nrhombic -q --threads 8 mesh '" + phantomNifti + "' -t 300.5 --density 8 -o a.stl";
+    EXPECT_EQ(RunShell(mesh + " --dry-run", folder.Path()).exitCode, RunShell(mesh, folder.Path()).exitCode) << limit;
+  }
+}
+
+TEST(CommandLine, TooLittleAddressSpaceIsADocumentedFailure)
+{
+  const TemporaryFolder folder;
+  for (int limit = 80'000; limit < 160'000; limit += 4000)
+  {
+    const Outcome outcome = RunShell("ulimit -v " + std::to_string(limit) + "\nrhombic -q render '" + phantomNifti +
+                                       "' --surface s=300.5 --size 64 -o a.png",
+                                     folder.Path());
+    EXPECT_TRUE(outcome.exitCode == 0 || outcome.exitCode == 9 || outcome.exitCode == 10)
+      << limit << ": " << outcome.exitCode << ' ' << outcome.errors;
+  }
+}
 #endif
 
 TEST(CommandLine, NamesLongerThanTheSystemAllowsAreRefusedAsThoseOfMissingFiles)
