@@ -10,6 +10,8 @@
 #include <fstream>
 #include <set>
 
+#include <sys/stat.h>
+
 namespace fs = std::filesystem;
 
 namespace
@@ -17,6 +19,7 @@ namespace
 
 using rhombic::CaseCollection;
 using rhombic::Failure;
+using rhombic::FailureKind;
 using rhombictest::TemporaryFolder;
 
 const fs::path phantom = fs::path(RHOMBIC_TESTDATA) / "phantom";
@@ -218,6 +221,36 @@ TEST(BatchCases, FilesThatTheSystemRefusesToLookForAreMissing)
   const auto found = rhombic::FindCases(folder.Path() / "m.tsv");
   ASSERT_EQ(found.cases.size(), 1u);
   EXPECT_TRUE(found.cases[0].files.empty());
+}
+
+/** The kind of the failure with which work ends, and whether its sentence has a text; none, 0, when it does not fail.
+ */
+template <typename TWork>
+std::pair<FailureKind, bool>
+FailureOf(const TWork & work, const std::string & text)
+{
+  try
+  {
+    work();
+  }
+  catch (const Failure & failure)
+  {
+    return { failure.GetKind(), std::string(failure.GetDescription()).find(text) != std::string::npos };
+  }
+  return {};
+}
+
+TEST(BatchCases, PipesAreNotOpened)
+{
+  const TemporaryFolder folder;
+  const fs::path pipe = folder.Path() / "f.nii.gz";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(FailureOf([&] { rhombic::FindCases(pipe); }, "it is a device or pipe"),
+            std::pair(FailureKind::Unreadable, true));
+  WriteFile(folder.Path() / "m.tsv", "case\tscan\na\tf.nii.gz\n");
+  const auto found = rhombic::FindCases(folder.Path() / "m.tsv");
+  ASSERT_EQ(found.cases.size(), 1u);
+  EXPECT_TRUE(found.cases[0].files.empty()) << "its contents are not hashed; its command refuses it";
 }
 
 TEST(BatchCases, AnEmptyCollectionIsAFailure)

@@ -103,7 +103,7 @@ AddFiles(const fs::path & path, std::vector<fs::path> & files)
   }
   else if (inParts.count(VolumeExtension(path)) == 0)
   {
-    files.push_back(path);
+    add(fs::directory_entry(path));
   }
   else
   {
@@ -528,11 +528,7 @@ FindCases(const fs::path & path, const CaseSearch & given)
 {
   std::error_code error;
   const fs::path collection = fs::canonical(path, error);
-  if (error)
-  {
-    throw Failure(FailureKind::NotFound,
-                  "Cannot read " + path.string() + ": there is no such file or folder; check the spelling.");
-  }
+  const bool isFolder = IsFolder(error ? path : collection);
   CaseSearch search = given;
   search.excluded = given.excluded.empty() ? fs::path() : fs::weakly_canonical(given.excluded, error);
   CaseCollection found;
@@ -540,7 +536,7 @@ FindCases(const fs::path & path, const CaseSearch & given)
   {
     found = ReadManifest(collection);
   }
-  else if (!fs::is_directory(collection))
+  else if (!isFolder)
   {
     BatchCase & batchCase = found.cases.emplace_back();
     batchCase.name = search.namesFromPaths ? ToFileName(StemNameOf(collection)) : "case";

@@ -161,6 +161,10 @@ ReadVoxels(const UnreadScan & file);
 SeriesList
 ListSeries(const std::filesystem::path & path, const ScanReadOptions & options = {});
 
+/** Whether a path is a folder and not a file. Throws Failure: NotFound, Unreadable (a device or pipe). */
+bool
+IsFolder(const std::filesystem::path & path);
+
 /** A path's extension in lower case, including the part before ".gz": ".nii", ".nii.gz". */
 std::string
 VolumeExtension(const std::filesystem::path & path);

@@ -14,24 +14,6 @@ namespace rhombic
 namespace
 {
 
-/** Whether a path is a folder and not a file. Throws Failure when it is neither. */
-bool
-IsFolder(const fs::path & path)
-{
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status))
-  {
-    throw Failure(FailureKind::NotFound,
-                  "Cannot read " + path.string() + ": there is no such file or folder; check the spelling.");
-  }
-  if (!fs::is_directory(status) && !fs::is_regular_file(status))
-  {
-    RefuseOther(path, "it is a device or pipe; give a file or folder");
-  }
-  return fs::is_directory(status);
-}
-
 void
 RequireNoSeries(const fs::path & path, const ScanReadOptions & options)
 {
@@ -140,6 +122,25 @@ ReadOrFail(const fs::path & path, const TRead & read)
 }
 
 } // namespace
+
+bool
+IsFolder(const fs::path & path)
+{
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status))
+  {
+    throw Failure(FailureKind::NotFound,
+                  "Cannot read " + path.string() + ": " +
+                    (fs::status_known(status) ? "there is no such file or folder; check the spelling."
+                                              : error.message() + "; check the path."));
+  }
+  if (!fs::is_directory(status) && !fs::is_regular_file(status))
+  {
+    RefuseOther(path, "it is a device or pipe; give a file or folder");
+  }
+  return fs::is_directory(status);
+}
 
 UnreadScan
 OpenScan(const fs::path & path, const ScanReadOptions & options)
