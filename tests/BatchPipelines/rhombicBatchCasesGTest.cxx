@@ -2,6 +2,7 @@
 #include "rhombicBatchCases.h"
 
 #include "rhombicFailure.h"
+#include "rhombicNobody.h"
 #include "rhombicOMEZarrTestFolder.h"
 #include "rhombicTemporaryFolder.h"
 
@@ -10,6 +11,7 @@
 #include <fstream>
 #include <set>
 
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 namespace fs = std::filesystem;
@@ -238,6 +240,64 @@ FailureOf(const TWork & work, const std::string & text)
     return { failure.GetKind(), std::string(failure.GetDescription()).find(text) != std::string::npos };
   }
   return {};
+}
+
+TEST(BatchCases, AClosedFolderInACollectionIsRefusedAndNotLeftOut)
+{
+  const std::string slice = std::string(128, '\0') + "DICM";
+  for (const std::vector<std::string> & names :
+       { std::vector<std::string>{ "b/scan.nii", "a/scan.nii" }, // the folder of the first is closed
+         std::vector<std::string>{ "s/more/slice", "s/slice" },
+         std::vector<std::string>{ "sub-02/T1w.nii", "sub-01/anat/sub-01_T1w.nii", "dataset_description.json" } })
+  {
+    for (const fs::perms mode : { fs::perms::none, fs::perms(0444) }) // which may be listed, but not looked into
+    {
+      const TemporaryFolder folder;
+      fs::permissions(folder.Path(), fs::perms(0755));
+      for (const std::string & name : names)
+      {
+        WriteFile(folder.Path() / name, slice);
+      }
+      const fs::path closed = (folder.Path() / names.front()).parent_path();
+      fs::permissions(closed, mode);
+      {
+        const rhombictest::Nobody nobody;
+        if (!nobody.IsBound() || !std::ifstream(folder.Path() / names.back()))
+        {
+          GTEST_SKIP() << "this user can't be another one, or not in the folder of temporary files";
+        }
+        const auto outcome = FailureOf([&] { rhombic::FindCases(folder.Path()); },
+                                       closed.string() + (mode == fs::perms::none ? ":" : "/"));
+        EXPECT_EQ(outcome, std::pair(FailureKind::Unreadable, true)) << closed;
+      }
+      fs::permissions(closed, fs::perms::owner_all);
+    }
+  }
+}
+
+TEST(BatchCases, AFolderThatTheSystemDoesNotListIsRefused)
+{
+  const TemporaryFolder folder;
+  WriteFile(folder.Path() / "a.nii", "x");
+  rlimit usual{};
+  getrlimit(RLIMIT_NOFILE, &usual);
+  const rlimit none{ 0, usual.rlim_max };
+  setrlimit(RLIMIT_NOFILE, &none);
+  const auto outcome = FailureOf([&] { rhombic::FindCases(folder.Path()); }, "Too many open files");
+  setrlimit(RLIMIT_NOFILE, &usual);
+  EXPECT_EQ(outcome, std::pair(FailureKind::Memory, true));
+  EXPECT_EQ(rhombic::FindCases(folder.Path()).cases.size(), 1u);
+
+  const fs::path before = fs::current_path();
+  fs::current_path(folder.Path());
+  for (int n = 0; n < 17; ++n) // more letters than a path may have
+  {
+    fs::create_directory(std::string(250, 'f'));
+    fs::current_path(std::string(250, 'f'));
+  }
+  fs::current_path(before);
+  EXPECT_EQ(FailureOf([&] { rhombic::FindCases(folder.Path()); }, "File name too long"),
+            std::pair(FailureKind::Unreadable, true));
 }
 
 TEST(BatchCases, PipesAreNotOpened)

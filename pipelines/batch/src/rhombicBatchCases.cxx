@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <fstream>
 #include <map>
 #include <set>
@@ -36,25 +37,40 @@ IsDicom(const fs::path & path)
   return start.compare(128, 4, "DICM") == 0 || (hasGroup && start[2] != 0);
 }
 
-/** Files and folders in a folder, sorted, without hidden ones, links and \a excluded. */
+/** Throws Failure when the system refuses to look at a path, but not when it is gone meanwhile. */
+void
+FailUnlessGone(const fs::path & path, const std::error_code & error)
+{
+  if (error && error != std::errc::no_such_file_or_directory && error != std::errc::not_a_directory)
+  {
+    const bool isScarce = error.value() == EMFILE || error.value() == ENFILE || error.value() == ENOMEM;
+    throw Failure(isScarce ? FailureKind::Memory : FailureKind::Unreadable,
+                  "Cannot look for scans in " + path.string() + ": " + error.message() +
+                    "; see to that, or name the scans in a manifest.");
+  }
+}
+
 struct FolderEntries
 {
   std::vector<fs::path> files;
   std::vector<fs::path> folders;
 };
 
+/** Files and folders in a folder, sorted, without hidden ones, links and \a excluded. Throws Failure for a folder that
+ * can't be listed to its end: its cases would be lost. */
 FolderEntries
 ListFolder(const fs::path & folder, const fs::path & excluded)
 {
   FolderEntries entries;
   std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+  for (fs::directory_iterator entry(folder, error), end; entry != end; entry.increment(error))
   {
     const fs::file_status status = entry->symlink_status(error);
     if (entry->path().filename().string()[0] == '.' || entry->path() == excluded)
     {
       continue;
     }
+    FailUnlessGone(entry->path(), error);
     if (fs::is_directory(status))
     {
       entries.folders.push_back(entry->path());
@@ -64,6 +80,7 @@ ListFolder(const fs::path & folder, const fs::path & excluded)
       entries.files.push_back(entry->path());
     }
   }
+  FailUnlessGone(folder, error);
   std::sort(entries.files.begin(), entries.files.end());
   std::sort(entries.folders.begin(), entries.folders.end());
   return entries;
@@ -181,17 +198,18 @@ public:
   }
 
 private:
+  /** \param isInSeries whether the slices in the folder are found with those above, and it need only be listed */
   void
-  Enter(const fs::path & folder)
+  Enter(const fs::path & folder, bool isInSeries = false)
   {
-    if (HoldsOMEZarrImage(folder))
+    if (!isInSeries && HoldsOMEZarrImage(folder))
     {
       this->Add(folder, "");
       return;
     }
     const FolderEntries entries = ListFolder(folder, m_Search.excluded);
     bool hasSlices = false;
-    for (const fs::path & file : entries.files)
+    for (const fs::path & file : isInSeries ? std::vector<fs::path>() : entries.files)
     {
       if (IsVolume(file))
       {
@@ -206,14 +224,13 @@ private:
         ++m_NumberOfOthers;
       }
     }
-    if (hasSlices) // those of its subfolders are found with them
+    if (hasSlices)
     {
       this->AddSeries(folder);
-      return;
     }
     for (const fs::path & subfolder : entries.folders)
     {
-      this->Enter(subfolder);
+      this->Enter(subfolder, isInSeries || hasSlices);
     }
   }
 
@@ -239,10 +256,8 @@ private:
     {
       series = ListSeries(folder).series;
     }
-    catch (const Failure &)
-    {
-      series.clear(); // the case's own command will say it
-    }
+    catch (const Failure &) // the case's own command will say it
+    {}
     if (series.size() < 2)
     {
       this->Add(folder, "");
@@ -421,10 +436,10 @@ ReadManifest(const fs::path & manifest)
         manifest, line, Count(fields.size(), "field") + " where there are " + Count(columns.size(), "column"));
     }
     std::map<std::string, std::string> row;
-    std::transform(
-      columns.begin(), columns.end(), fields.begin(), std::inserter(row, row.end()), [](auto & a, auto & b) {
-        return std::make_pair(a, b);
-      });
+    for (std::size_t n = 0; n < columns.size(); ++n)
+    {
+      row[columns[n]] = fields[n];
+    }
     BatchCase batchCase;
     batchCase.name = row["case"];
     if (batchCase.name.empty() || batchCase.name[0] == '.' || batchCase.name[0] == '-' ||
@@ -444,10 +459,8 @@ ReadManifest(const fs::path & manifest)
     };
     batchCase.labels = pathOf("labels");
     batchCase.reference = pathOf("reference");
-    for (const std::string_view word : SplitWords(row["options"]))
-    {
-      batchCase.options.emplace_back(word);
-    }
+    const auto words = SplitWords(row["options"]);
+    batchCase.options.assign(words.begin(), words.end());
     found.cases.push_back(batchCase);
   }
   return found;
