@@ -269,6 +269,8 @@ TEST(BatchCases, AClosedFolderInACollectionIsRefusedAndNotLeftOut)
         const auto outcome = FailureOf([&] { rhombic::FindCases(folder.Path()); },
                                        closed.string() + (mode == fs::perms::none ? ":" : "/"));
         EXPECT_EQ(outcome, std::pair(FailureKind::Unreadable, true)) << closed;
+        EXPECT_EQ(FailureOf([&] { rhombic::IsBIDS(closed / "in"); }, "Permission denied"),
+                  std::pair(FailureKind::NotFound, true));
       }
       fs::permissions(closed, fs::perms::owner_all);
     }
@@ -298,6 +300,19 @@ TEST(BatchCases, AFolderThatTheSystemDoesNotListIsRefused)
   fs::current_path(before);
   EXPECT_EQ(FailureOf([&] { rhombic::FindCases(folder.Path()); }, "File name too long"),
             std::pair(FailureKind::Unreadable, true));
+}
+
+TEST(BatchCases, CollectionsThatTheSystemRefusesToLookForAreFailures)
+{
+  const TemporaryFolder folder;
+  fs::create_symlink("loop", folder.Path() / "loop");
+  for (const std::string & name : { std::string("loop"), std::string(300, 'x') })
+  {
+    const fs::path path = folder.Path() / name;
+    const std::pair expected(FailureKind::NotFound, true);
+    EXPECT_EQ(FailureOf([&] { rhombic::FindCases(path); }, name), expected);
+    EXPECT_EQ(FailureOf([&] { rhombic::IsBIDS(path); }, name), expected);
+  }
 }
 
 TEST(BatchCases, PipesAreNotOpened)

@@ -516,9 +516,11 @@ LeaveOutUnlistable(CaseCollection & found)
 bool
 IsBIDS(const fs::path & folder)
 {
+  std::error_code error;
+  const bool isDescribed = IsFolder(folder) && fs::exists(folder / "dataset_description.json", error);
+  FailUnlessGone(folder, error);
   const auto entries = ListFolder(folder, {});
-  return fs::exists(folder / "dataset_description.json") &&
-         std::any_of(entries.folders.begin(), entries.folders.end(), [](const fs::path & path) {
+  return isDescribed && std::any_of(entries.folders.begin(), entries.folders.end(), [](const fs::path & path) {
            return path.filename().string().rfind("sub-", 0) == 0;
          });
 }
