@@ -1,5 +1,6 @@
 #include "rhombicRunBatch.h"
 #include "rhombicFailure.h"
+#include "rhombicNobody.h"
 #include "rhombicProgram.h"
 #include "rhombicWording.h"
 
@@ -90,6 +91,65 @@ TEST(BatchStatistics, ValuesFarFromTheOthersAreNamed)
   EXPECT_EQ(StatisticsOf({ 1, 1, 1, 100 })[9], "") << "too few to tell";
   EXPECT_EQ(StatisticsOf({ 3, 3, 3, 3, 3, 3 })[9], "");
   EXPECT_EQ(StatisticsOf({ 3, 3, 3, 3, 3, 3, 3, 3, 3, 7 })[9], "c9 (7)") << "where more than half are the same";
+}
+
+/** The kind and sentence of the failure with which work ends. */
+template <typename TWork>
+std::pair<rhombic::FailureKind, std::string>
+FailureOf(const TWork & work)
+{
+  try
+  {
+    work();
+  }
+  catch (const rhombic::Failure & failure)
+  {
+    return { failure.GetKind(), failure.GetDescription() };
+  }
+  return {};
+}
+
+TEST(BatchStatistics, ClosedFilesAndFoldersAreNotSaidToBeMissing)
+{
+  namespace fs = std::filesystem;
+  using rhombic::FailureKind;
+  const TemporaryFolder folder;
+  rhombic::BatchSettings settings;
+  settings.output = folder.Path();
+  const auto statistics = [&] { rhombic::WriteBatchStatistics(folder.Path()); };
+  const auto tables = [&] { rhombic::WriteBatchTables(settings); };
+  const auto run = [&] { rhombic::RunBatch(settings, rhombic::Events()); };
+  EXPECT_EQ(FailureOf(statistics).first, FailureKind::NotFound);
+  const std::vector<fs::path> files{ folder.Path() / "measures.tsv", folder.Path() / "journal.jsonl" };
+  for (const fs::path & file : files)
+  {
+    std::ofstream(file) << measureHead;
+    fs::permissions(file, fs::perms::none);
+  }
+  fs::permissions(folder.Path(), fs::perms(0777));
+  {
+    const rhombictest::Nobody nobody;
+    std::error_code error;
+    if (!nobody.IsBound() || !fs::exists(files.front(), error))
+    {
+      GTEST_SKIP() << "this user can't be another one, or not in the folder of temporary files";
+    }
+    for (const auto & [kind, sentence] : { FailureOf(statistics), FailureOf(tables) })
+    {
+      EXPECT_EQ(kind, FailureKind::Unreadable);
+      EXPECT_NE(sentence.find("not yours to read"), std::string::npos) << sentence;
+    }
+    EXPECT_FALSE(fs::exists(folder.Path() / "results.tsv")) << "a table without the cases of the journal";
+  }
+  fs::permissions(folder.Path(), fs::perms::none);
+  {
+    const rhombictest::Nobody nobody;
+    EXPECT_EQ(FailureOf(statistics).first, FailureKind::Unreadable);
+    const auto [kind, sentence] = FailureOf(run);
+    EXPECT_EQ(kind, FailureKind::Output);
+    EXPECT_NE(sentence.find("Permission denied"), std::string::npos) << sentence;
+  }
+  fs::permissions(folder.Path(), fs::perms::owner_all);
 }
 
 TEST(BatchStatistics, EachMeasureOfEachSurfaceHasALine)

@@ -1,12 +1,13 @@
 #include "rhombicBatchJournal.h"
 
 #include "rhombicFailure.h"
+#include "rhombicFiles.h"
 #include "rhombicWording.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
+#include <sstream>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -92,7 +93,9 @@ CaseRecords
 ReadJournal(const fs::path & folder)
 {
   CaseRecords records;
-  std::ifstream stream(folder / journalFile);
+  std::error_code error;
+  const bool isThere = fs::exists(folder / journalFile, error) || error;
+  std::istringstream stream(isThere ? ReadTextFile(folder / journalFile, "journal") : "");
   std::string line;
   while (std::getline(stream, line))
   {
@@ -110,12 +113,11 @@ BatchJournal::BatchJournal(const fs::path & folder, const std::vector<std::strin
   : m_Path(folder / journalFile)
 {
   std::error_code error;
-  const bool hasFiles = fs::exists(folder, error) && !fs::is_empty(folder, error);
-  if (hasFiles && !fs::exists(m_Path, error))
+  if (fs::exists(folder, error) && !fs::exists(m_Path, error) && !fs::is_empty(folder, error))
   {
-    throw Failure(FailureKind::Output,
-                  "The folder " + folder.string() +
-                    " holds something else than the outputs of a batch; name a new or empty one.");
+    const std::string why =
+      error ? "can't be looked into: " + error.message() : "holds something else than the outputs of a batch";
+    throw Failure(FailureKind::Output, "The folder " + folder.string() + " " + why + "; name a new or empty one.");
   }
   fs::create_directories(folder, error);
   m_Descriptor = open(m_Path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);

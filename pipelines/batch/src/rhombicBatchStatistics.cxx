@@ -2,6 +2,7 @@
 
 #include "rhombicBatchResults.h"
 #include "rhombicFailure.h"
+#include "rhombicFiles.h"
 #include "rhombicMeasureTable.h"
 #include "rhombicQuantile.h"
 #include "rhombicSidecar.h"
@@ -9,9 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <set>
+#include <sstream>
 #include <utility>
 
 namespace fs = std::filesystem;
@@ -60,17 +61,18 @@ struct Table
   }
 };
 
-/** Reads a table of a batch. Lines of other lengths than the first are left out. Throws Failure: NotFound; Unreadable
- * without a needed column. */
+/** Reads a table of a batch. Lines of other lengths than the first are left out. Throws Failure: NotFound; Unreadable,
+ * also without a needed column. */
 Table
 ReadTable(const fs::path & path, const Row & needed)
 {
-  std::ifstream stream(path);
-  if (!stream)
+  std::error_code error;
+  if (!fs::exists(path, error) && !error)
   {
     throw Failure(FailureKind::NotFound,
                   "There is no table " + path.string() + "; run the batch first, or write its tables with --tables.");
   }
+  std::istringstream stream(ReadTextFile(path, "table"));
   Table table;
   std::string line;
   std::getline(stream, line);

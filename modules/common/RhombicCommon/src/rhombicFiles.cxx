@@ -98,7 +98,7 @@ std::string
 ReadTextFile(const std::filesystem::path & path, const std::string & kind, std::size_t most)
 {
   std::error_code error;
-  if (!std::filesystem::exists(path, error))
+  if (fs::status(path, error).type() == fs::file_type::not_found)
   {
     throw Failure(FailureKind::NotFound, "There is no " + kind + " " + path.string() + "; check the path.");
   }
