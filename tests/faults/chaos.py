@@ -4,6 +4,10 @@ these things happens to it, then once undisturbed. At the end of each round its 
 happened to: the same files with the same bytes, each case once in the tables, no case lost, no half file and no stage left. Numbers are
 random, but the same for each SEED. Prints a line for each round, and each defect.
 
+Counted is what a batch met: processes killed while they ran, inputs changed and batches started while it ran, renames that failed,
+processes whose clock jumped, and for limits and the disk the cases that failed, or 1 where the batch itself ended. A limit that is wide
+enough, or a disk that is large enough, counts nothing.
+
 The kinds: children (killed), parent (killed), disk (full), memory, files, processes, seconds (limits), changed and removed (inputs, which
 come back), clock (jumps back and forth), two (batches on one folder), rename (fails now and then)."""
 
@@ -11,6 +15,7 @@ import argparse
 import hashlib
 import os
 import random
+import re
 import resource
 import shutil
 import signal
@@ -24,6 +29,7 @@ LIBRARY = r"""
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <sys/time.h>
 #include <time.h>
@@ -35,10 +41,19 @@ static unsigned next(void)
     state = (unsigned)getpid() * 2654435761u + (unsigned)atoi(getenv("CHAOS_SEED")) + 1;
   return (state = state * 1664525u + 1013904223u) >> 8;
 }
+static void count(void)
+{
+  const int file = open(getenv("CHAOS_MET"), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
+  if (file >= 0 && write(file, "x", 1) == 1)
+    close(file);
+}
 static int fails(void)
 {
   const char * const share = getenv("CHAOS_RENAME");
-  return share && next() % 100 < (unsigned)atoi(share);
+  if (!share || next() % 100 >= (unsigned)atoi(share))
+    return 0;
+  count();
+  return 1;
 }
 int rename(const char * from, const char * to)
 {
@@ -55,8 +70,13 @@ int link(const char * from, const char * to)
 int clock_gettime(clockid_t clock, struct timespec * now)
 {
   const int code = ((int (*)(clockid_t, struct timespec *))dlsym(RTLD_NEXT, "clock_gettime"))(clock, now);
+  static int isCounted;
   if (clock == CLOCK_REALTIME && getenv("CHAOS_CLOCK"))
+  {
     now->tv_sec += (long)(next() % 2000000) - 1000000;
+    if (!isCounted++)
+      count();
+  }
   return code;
 }
 int gettimeofday(struct timeval * restrict now, void * restrict zone)
@@ -99,7 +119,8 @@ def children_of(process):
         if name.isdigit():
             try:
                 with open(f"/proc/{name}/stat") as file:
-                    if int(file.read().rsplit(")", 1)[1].split()[1]) == process:
+                    state, parent = file.read().rsplit(")", 1)[1].split()[:2]
+                    if int(parent) == process and state != "Z":
                         found.append(int(name))
             except (OSError, IndexError):
                 pass  # ended meanwhile
@@ -110,7 +131,7 @@ class Chaos:
     def __init__(self, given, base):
         self.program, self.base, self.cases = os.path.abspath(given.program), base, given.cases
         self.random = random.Random(given.seed)
-        self.faults = 0
+        self.faults, self.text = 0, ""
         self.library = os.path.join(base, "chaos.so")
         with open(os.path.join(base, "chaos.c"), "w") as file:
             file.write(LIBRARY)
@@ -162,6 +183,7 @@ class Chaos:
         except subprocess.TimeoutExpired:
             process.kill()
             process.communicate()
+            self.text = ""
             return "hangs"
         self.text = text.decode(errors="replace")
         return process.returncode
@@ -170,7 +192,17 @@ class Chaos:
         return self.end(self.start(limits, **environment))
 
     def preload(self, **environment):
-        return self.run(LD_PRELOAD=self.library, **environment)
+        met = os.path.join(self.base, "met")
+        open(met, "w").close()
+        code = self.run(LD_PRELOAD=self.library, CHAOS_MET=met, **environment)
+        self.faults += os.path.getsize(met)
+        return code
+
+    def counted(self, code):
+        """Counts the cases that a run lost, or 1 where it ended itself."""
+        failed = re.search(r"(\d+) cases? of \d+ failed", self.text)
+        self.faults += int(failed[1]) if failed else int(code != 0)
+        return code
 
     # What happens; each returns the exit code of what ran, -9 where it was killed.
     def children(self):
@@ -206,8 +238,7 @@ class Chaos:
             os.rmdir(self.out)
             return 0
         try:
-            self.faults += 1
-            code = self.run()
+            code = self.counted(self.run())
             kept = os.path.join(self.base, "kept")
             shutil.copytree(self.out, kept)
         finally:
@@ -217,8 +248,7 @@ class Chaos:
         return code
 
     def limited(self, limit, values):
-        self.faults += 1
-        return self.run((limit, self.random.choice(values)))
+        return self.counted(self.run((limit, self.random.choice(values))))
 
     def memory(self):
         return self.limited(resource.RLIMIT_AS, [n << 20 for n in (100, 200, 400, 700, 1000, 1500)])
@@ -235,10 +265,9 @@ class Chaos:
             os.mkdir(self.out)
             os.chmod(self.out, 0o777)
             try:
-                code = self.run((resource.RLIMIT_NPROC, number))
+                code = self.counted(self.run((resource.RLIMIT_NPROC, number)))
             except PermissionError:  # the program's folder is root's own
                 return 0
-            self.faults += 1
             if code == 1:
                 break
         return code
@@ -257,7 +286,7 @@ class Chaos:
                 with open(path, "rb") as file:
                     before[path] = file.read(), os.stat(path)
                 change(path, before[path][0])
-                self.faults += 1
+                self.faults += process.poll() is None
         code = self.end(process)
         for path, (data, times) in before.items():
             with open(path, "wb") as file:
@@ -275,18 +304,16 @@ class Chaos:
         return self.hide(change)
 
     def clock(self):
-        self.faults += 1
         return self.preload(CHAOS_CLOCK="1")
 
     def rename(self):
-        self.faults += 1
         return self.preload(CHAOS_RENAME=str(self.random.choice([5, 20, 50])))
 
     def two(self):
         first = self.start()
         time.sleep(self.random.uniform(0.0, 1.0))
+        self.faults += first.poll() is None
         code = self.run()
-        self.faults += 1
         return self.end(first) or code
 
     def defect(self, code):
@@ -332,10 +359,10 @@ def main():
                 defect = chaos.defect(code)
                 faults += chaos.faults
                 defects += 1 if defect else 0
-                print(f"{kind} {number}: {chaos.faults} faults, exit code {code} ({text}): {defect or 'the same files at the end'} "
+                print(f"{kind} {number}: {chaos.faults} faults met, exit code {code} ({text}): {defect or 'the same files at the end'} "
                       f"[{time.monotonic() - begin:.0f} s]", flush=True)
                 shutil.rmtree(chaos.out, ignore_errors=True)
-    print(f"{faults} faults in batches of {given.cases} cases, {defects} defects")
+    print(f"{faults} faults met in batches of {given.cases} cases, {defects} defects")
     return 1 if defects else 0
 
 
