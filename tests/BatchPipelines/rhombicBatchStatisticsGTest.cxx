@@ -137,7 +137,7 @@ TEST(BatchStatistics, ClosedFilesAndFoldersAreNotSaidToBeMissing)
     for (const auto & [kind, sentence] : { FailureOf(statistics), FailureOf(tables) })
     {
       EXPECT_EQ(kind, FailureKind::Unreadable);
-      EXPECT_NE(sentence.find("not yours to read"), std::string::npos) << sentence;
+      EXPECT_NE(sentence.find("Permission denied"), std::string::npos) << sentence;
     }
     EXPECT_FALSE(fs::exists(folder.Path() / "results.tsv")) << "a table without the cases of the journal";
   }

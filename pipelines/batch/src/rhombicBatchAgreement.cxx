@@ -116,8 +116,19 @@ MakeAgreementStatistics(const std::vector<Report> & cases)
       }
     }
   }
-  std::string table = "output\tlabel\tmeasure\tcompared\tmissing_in_reference\tmissing_in_"
-                      "case\tcases\tmean\tleast\tq1\tmedian\tq3\tlargest\n";
+  std::string table = ToLine({ "output",
+                               "label",
+                               "measure",
+                               "compared",
+                               "missing_in_reference",
+                               "missing_in_case",
+                               "cases",
+                               "mean",
+                               "least",
+                               "q1",
+                               "median",
+                               "q3",
+                               "largest" });
   for (auto & [key, label] : labels)
   {
     for (const char * const measure : Measures)

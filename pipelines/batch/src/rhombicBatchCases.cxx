@@ -56,8 +56,8 @@ struct FolderEntries
   std::vector<fs::path> folders;
 };
 
-/** Files and folders in a folder, sorted, without hidden ones, links and \a excluded. Throws Failure for a folder that
- * can't be listed to its end: its cases would be lost. */
+/** Files and folders in a folder, sorted, without hidden ones, links, lost+found and \a excluded. Throws Failure for a
+ * folder that can't be listed to its end: its cases would be lost. */
 FolderEntries
 ListFolder(const fs::path & folder, const fs::path & excluded)
 {
@@ -66,7 +66,8 @@ ListFolder(const fs::path & folder, const fs::path & excluded)
   for (fs::directory_iterator entry(folder, error), end; entry != end; entry.increment(error))
   {
     const fs::file_status status = entry->symlink_status(error);
-    if (entry->path().filename().string()[0] == '.' || entry->path() == excluded)
+    const std::string name = entry->path().filename().string();
+    if (name[0] == '.' || name == "lost+found" || entry->path() == excluded) // lost+found is the file system's
     {
       continue;
     }

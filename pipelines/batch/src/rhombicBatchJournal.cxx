@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <sstream>
+#include <fstream>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -93,9 +93,7 @@ CaseRecords
 ReadJournal(const fs::path & folder)
 {
   CaseRecords records;
-  std::error_code error;
-  const bool isThere = fs::exists(folder / journalFile, error) || error;
-  std::istringstream stream(isThere ? ReadTextFile(folder / journalFile, "journal") : "");
+  std::ifstream stream = OpenIfThere(folder / journalFile);
   std::string line;
   while (std::getline(stream, line))
   {

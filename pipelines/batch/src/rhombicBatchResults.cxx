@@ -113,7 +113,10 @@ DescribeOutputTable()
   DescribeColumn("output", "", "The name of the output in the pipeline, which may be one for several files.", columns);
   DescribeColumn("size_bytes", "byte", "The file's size.", columns);
   DescribeColumn("md5", "", "The MD5 of the file's content.", columns);
-  DescribeColumn("surface_ids", "", "The file's surfaces: surface_id in measures.tsv, with commas between.", columns);
+  DescribeColumn("surface_ids",
+                 "",
+                 "The surfaces that the file holds or shows: surface_id in measures.tsv, with a comma between them.",
+                 columns);
   return columns;
 }
 

@@ -10,9 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <set>
-#include <sstream>
 #include <utility>
 
 namespace fs = std::filesystem;
@@ -66,13 +66,12 @@ struct Table
 Table
 ReadTable(const fs::path & path, const Row & needed)
 {
-  std::error_code error;
-  if (!fs::exists(path, error) && !error)
+  std::ifstream stream = OpenIfThere(path);
+  if (!stream.is_open())
   {
     throw Failure(FailureKind::NotFound,
                   "There is no table " + path.string() + "; run the batch first, or write its tables with --tables.");
   }
-  std::istringstream stream(ReadTextFile(path, "table"));
   Table table;
   std::string line;
   std::getline(stream, line);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <memory>
 #include <string>
@@ -13,6 +14,11 @@
 
 namespace rhombic
 {
+
+/** Opens a file that is read in parts. The stream is not open where there is no such file. Throws Failure(Unreadable)
+ * where it can't be opened. */
+std::ifstream
+OpenIfThere(const std::filesystem::path & path);
 
 /** Reads a text file in UTF-8, without its byte order mark, up to \a most bytes; one byte more of longer files.
  * \a kind names it in messages, as "preset file". Throws Failure: NotFound when there is no such file, Unreadable when

@@ -5,7 +5,8 @@
 
 #include <itksys/MD5.h>
 
-#include <fstream>
+#include <cerrno>
+#include <cstring>
 #include <set>
 
 #include <unistd.h>
@@ -93,6 +94,17 @@ private:
 };
 
 } // namespace
+
+std::ifstream
+OpenIfThere(const fs::path & path)
+{
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream.is_open() && errno != ENOENT)
+  {
+    throw Failure(FailureKind::Unreadable, "Cannot read " + path.string() + ": " + std::strerror(errno) + ".");
+  }
+  return stream;
+}
 
 std::string
 ReadTextFile(const std::filesystem::path & path, const std::string & kind, std::size_t most)
