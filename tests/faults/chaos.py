@@ -251,10 +251,10 @@ class Chaos:
         return self.counted(self.run((limit, self.random.choice(values))))
 
     def memory(self):
-        return self.limited(resource.RLIMIT_AS, [n << 20 for n in (100, 200, 400, 700, 1000, 1500)])
+        return self.limited(resource.RLIMIT_AS, [n << 20 for n in (32, 36, 40, 44, 48, 60)])
 
     def files(self):
-        return self.limited(resource.RLIMIT_NOFILE, [5, 8, 12, 16, 20, 24, 32])
+        return self.limited(resource.RLIMIT_NOFILE, [5, 6, 7, 8, 9, 10, 12])
 
     def processes(self):
         """Each number of processes and threads, always from the start: each call that starts one fails for some number."""
