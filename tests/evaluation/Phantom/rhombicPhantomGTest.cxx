@@ -576,7 +576,7 @@ TEST_F(PhantomFiles, ReadBackAsTheyWereMade)
 TEST_F(PhantomFiles, AreTheSameBytesEveryTime)
 {
   WritePhantom(m_Folder / "first", { 10.0 });
-  fs::create_directory(m_Folder / "second");
+  fs::create_directories(m_Folder / "second/.phantom-999999999/dicom"); // of a process that was killed
   WritePhantom(m_Folder / "second", { 10.0 });
   const auto first = ReadFolder(m_Folder / "first");
   EXPECT_EQ(first.count("phantom-organs.csv"), 1u);

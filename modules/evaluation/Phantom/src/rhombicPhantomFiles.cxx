@@ -8,7 +8,11 @@
 #include "gdcmWriter.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <iomanip>
 #include <sstream>
@@ -30,10 +34,30 @@ Fail(const fs::path & path, const std::string & why)
   throw Failure(FailureKind::Output, "Cannot write the phantom to " + path.string() + ": " + why + ".");
 }
 
+constexpr char StagePrefix[] = ".phantom-"; // of hidden folders, then the number of the process
+
+/** Removes the hidden folders of processes that were killed. */
+void
+RemoveAbandoned(const fs::path & folder)
+{
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+  {
+    const std::string name = entry->path().filename().string();
+    const bool isStage = name.rfind(StagePrefix, 0) == 0;
+    if (isStage && kill(std::atoi(name.c_str() + std::strlen(StagePrefix)), 0) != 0 && errno == ESRCH)
+    {
+      std::error_code ignored; // the folder is not empty then
+      fs::remove_all(entry->path(), ignored);
+    }
+  }
+}
+
 /** Makes the folder unless it is there and empty. Returns whether it was made. */
 bool
 MakeFolder(const fs::path & folder)
 {
+  RemoveAbandoned(folder);
   std::error_code error;
   const bool isNew = fs::create_directory(folder, error);
   if (error || !fs::is_directory(folder, error))
@@ -271,7 +295,7 @@ WritePhantom(const fs::path & folder, const PhantomSettings & settings)
 {
   const auto scan = MakePhantomScan(settings);
   const bool isNew = MakeFolder(folder);
-  const Cleaner cleaner{ folder / (".phantom-" + std::to_string(getpid())), folder, isNew };
+  const Cleaner cleaner{ folder / (StagePrefix + std::to_string(getpid())), folder, isNew };
   try
   {
     WriteFiles(cleaner.hidden, settings, scan);
