@@ -51,6 +51,8 @@ COMMANDS = {
     "statistics": ["batch", "-o", "{in}/batch", "--stats"],
     "tables": ["batch", "{in}/cases", "--names-from-paths", "--pipeline", "{in}/pipeline.yaml", "--dry-run", "-o", "{in}/batch"],
     "batch": ["batch", "{in}/cases", "--names-from-paths", "--pipeline", "{in}/pipeline.yaml", "--jobs", "1", "-o", "{out}/batch"],
+    "bids": ["bids", "{in}/bids", "{out}/batch", "participant", "--pipeline", "{in}/pipeline.yaml", "--jobs", "1"],
+    "experiments": ["compare", "{in}/experiments.yaml", "--no-pictures", "--repeats", "1", "-o", "{out}/results"],
 }
 
 
@@ -62,7 +64,7 @@ def contents(folder):
             path = os.path.join(parent, name)
             with open(path, "rb") as file:
                 data = file.read()
-            unsteady = name.endswith((".json", ".jsonl", ".html", ".tsv", ".pdf")) or "results." in name
+            unsteady = name.endswith((".json", ".jsonl", ".html", ".tsv", ".pdf", "times.csv")) or "results." in name
             found[os.path.relpath(path, folder)] = "" if unsteady else hashlib.md5(data).hexdigest()
     return found
 
@@ -76,10 +78,16 @@ class Runs:
         shutil.copytree(testdata, self.inputs)
         subprocess.run([program, "-q", "mesh", self.inputs + "/phantom.nii.gz", "-t", "375.5", "--no-sidecar", "-o", self.inputs + "/bone.stl"],
                        check=True)
-        os.mkdir(self.inputs + "/cases")
-        shutil.copy(self.inputs + "/phantom.nii.gz", self.inputs + "/cases/one.nii.gz")
-        with open(self.inputs + "/pipeline.yaml", "w") as file:
-            file.write("outputs:\n  - mesh: bone.stl\n    threshold: 375.5\n")
+        for case in ("cases/one.nii.gz", "cases/folder/two.nii.gz", "bids/sub-01/anat/sub-01_T1w.nii.gz"):
+            os.makedirs(os.path.dirname(f"{self.inputs}/{case}"), exist_ok=True)
+            shutil.copy(self.inputs + "/phantom.nii.gz", f"{self.inputs}/{case}")
+        for name, text in {
+            "bids/dataset_description.json": '{"Name": "phantom", "BIDSVersion": "1.8.0"}',
+            "pipeline.yaml": "outputs:\n  - mesh: bone.stl\n    threshold: 375.5\n",
+            "experiments.yaml": "title: T\nexperiments:\n  - name: a\n    field: {kind: corner, size: 12}\n    rows: [{method: lean}]\n",
+        }.items():
+            with open(f"{self.inputs}/{name}", "w") as file:
+                file.write(text)
         for made in (["resample", self.inputs + "/phantom.nii.gz", "-o", self.inputs + "/lattice.fcc.nrrd"],
                      ["render", self.inputs + "/phantom.nii.gz", "--surface", "bone=375.5", "--size", "80", "-o", self.inputs + "/bone.png"],
                      ["batch", self.inputs + "/cases", "--names-from-paths", "--pipeline", self.inputs + "/pipeline.yaml", "-o",
