@@ -193,6 +193,63 @@ TEST_F(PictureStack, IsReadInTheOrderOfNumbers)
   EXPECT_TRUE(rhombic::ListSeries(m_Folder, m_Options).series.empty());
 }
 
+TEST_F(PictureStack, IsRefusedIfASliceIsMissing)
+{
+  using Names = std::vector<const char *>;
+  const auto write = [this](const Names & names) {
+    fs::remove_all(m_Folder);
+    fs::create_directory(m_Folder);
+    for (const char * const name : names)
+    {
+      Write<std::uint8_t>(name, OIIO::TypeDesc::UINT8, 1);
+    }
+  };
+  const std::vector<std::pair<Names, std::string>> refused{
+    { { "0000.tif", "0001.tif", "0002.tif", "0004.tif" },
+      "1 slice is missing by the numbers in their names, the first "
+      "between 0002.tif and 0004.tif; find" },
+    { { "a10b4.png", "a20b4.png", "a50b4.png", "a60b4.png" }, "2 slices are missing" },
+    { { "slice_8_of_12.tif", "slice_9_of_12.tif", "slice_10_of_12.tif", "slice_12_of_12.tif" }, "between slice_10_of" },
+    { { "scan-2024-01_z005.bmp", "scan-2024-02_z010.bmp", "scan-2024-03_z015.bmp", "scan-2024-05_z025.bmp" },
+      "between scan-2024-03" },
+    { { "1.tif", "2.tif", "02.tif" }, "same number as 02.tif" },
+    { { "1.tif", "1.tiff" }, "same number as 1.tif" },
+  };
+  for (const auto & [names, sentence] : refused)
+  {
+    write(names);
+    EXPECT_EQ(KindOfReading(m_Folder, sentence, m_Options), FailureKind::Geometry);
+  }
+  for (const auto & [names, isEven] : std::vector<std::pair<Names, bool>>{
+         { { "10.tif", "20.tif", "30.tif" }, true },
+         { { "t1704103199_1.tif", "t1704103201_2.tif", "t1704103202_3.tif" }, true },
+         { { "5.png", "6.png" }, true },
+         { { "a.tif", "b.tif", "c.tif" }, false },
+         { { "1.tif", "2.tif", "3.tif", "5 (copy).tif" }, false },
+         { { "0.5.tif", "1.0.tif", "1.5.tif", "2.0.tif" }, false },
+         { { "20240101115958.tif", "20240101115959.tif", "20240101120000.tif" }, false },
+         { { "7.tif", "10.tif", "12.tif", "14.tif", "16.tif" }, false } })
+  {
+    write(names);
+    const auto notes = ReadScan(m_Folder, m_Options).notes;
+    EXPECT_EQ(notes.front().find("Whether slices are missing can't be told") != 0, isEven) << names.front();
+  }
+}
+
+TEST_F(PictureStack, SlicesBesideAGapStayInTheirPlaces)
+{
+  for (const char * const name : { "1.tif", "2.tif", "3.tif", "5.tif" })
+  {
+    Write<std::uint8_t>(name, OIIO::TypeDesc::UINT8, 1);
+  }
+  m_Options.onGap = ScanReadOptions::Policy::Accept;
+  const auto scan = ReadScan(m_Folder, m_Options);
+  ASSERT_EQ(scan.sliceOrigins.size(), 4u);
+  EXPECT_DOUBLE_EQ(scan.sliceOrigins[2][2], 0.02);
+  EXPECT_DOUBLE_EQ(scan.sliceOrigins[3][2], 0.04);
+  EXPECT_DOUBLE_EQ(rhombic::GeometryOf(scan.image).GetSpacing()[2], 0.04 / 3);
+}
+
 TEST_F(PictureStack, EveryFormatKeepsItsValues)
 {
   for (const std::string extension : { ".png", ".bmp", ".tiff", ".jp2" })

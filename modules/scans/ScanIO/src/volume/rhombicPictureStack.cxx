@@ -82,6 +82,107 @@ ComesBefore(const std::string & a, const std::string & b)
   return aEnds != bEnds ? aEnds : a < b; // of names that differ by zeros only, the first in the alphabet
 }
 
+/** A picture's name with # for each number, without extension, and the numbers. */
+std::pair<std::string, std::vector<std::uint64_t>>
+SplitName(const fs::path & picture)
+{
+  std::pair<std::string, std::vector<std::uint64_t>> name;
+  bool wasDigit = false;
+  for (const char letter : picture.stem().string())
+  {
+    const bool isDigit = letter >= '0' && letter <= '9';
+    if (!isDigit || !wasDigit)
+    {
+      name.first += isDigit ? '#' : letter;
+    }
+    if (isDigit && !wasDigit)
+    {
+      name.second.push_back(0);
+    }
+    if (isDigit)
+    {
+      name.second.back() = 10 * name.second.back() + static_cast<std::uint64_t>(letter - '0');
+    }
+    wasDigit = isDigit;
+  }
+  return name;
+}
+
+/** The places of slices, in steps from the first, by the numbers in their names: 0, 1, 3, ... Empty where no number
+ * rises by one step at most places and by multiples of it elsewhere, as times do not. Throws Failure for pictures of
+ * the same numbers. */
+std::vector<std::size_t>
+FindPlaces(const std::vector<fs::path> & pictures)
+{
+  constexpr std::uint64_t largest = 1000000000; // dates and times are larger
+  std::map<std::pair<std::string, std::vector<std::uint64_t>>, fs::path> names;
+  std::vector<std::vector<std::uint64_t>> numbers;
+  for (const fs::path & picture : pictures)
+  {
+    const auto [other, isNew] = names.emplace(SplitName(picture), picture);
+    RefuseGeometryIf(!isNew,
+                     picture,
+                     "its name has the same number as " + other->second.filename().string() +
+                       ", and a slice of a stack has one picture; move one of them to another folder");
+    numbers.push_back(other->first.second);
+  }
+  std::vector<std::size_t> places;
+  const bool areAlike = names.begin()->first.first == names.rbegin()->first.first; // and those between them
+  for (std::size_t column = 0; areAlike && column < numbers.front().size(); ++column)
+  {
+    std::vector<std::uint64_t> steps;
+    for (std::size_t n = 1; n < numbers.size(); ++n)
+    {
+      steps.push_back(numbers[n][column] - numbers[n - 1][column]);
+    }
+    const std::uint64_t step = *std::min_element(steps.begin(), steps.end());
+    const auto isMultiple = [=](std::uint64_t one) { return one < largest && one % step == 0; };
+    if (step > 0 && numbers.back()[column] < largest && std::all_of(steps.begin(), steps.end(), isMultiple) &&
+        2 * std::count(steps.begin(), steps.end(), step) > static_cast<std::ptrdiff_t>(steps.size()) &&
+        (places.empty() || places.back() > steps.size()))
+    {
+      places.assign(1, 0);
+      for (const std::uint64_t one : steps)
+      {
+        places.push_back(places.back() + one / step);
+      }
+    }
+  }
+  return places;
+}
+
+/** FindPlaces() where slices are missing, and else nothing, with a note. Throws Failure unless gaps are accepted. */
+std::vector<std::size_t>
+AcceptGaps(const std::vector<fs::path> & pictures,
+           const fs::path & folder,
+           const ScanReadOptions & options,
+           std::vector<std::string> & notes)
+{
+  const std::vector<std::size_t> places = FindPlaces(pictures);
+  if (places.empty())
+  {
+    notes.push_back("Whether slices are missing can't be told, as no number in the names of the pictures rises by one "
+                    "step.");
+    return {};
+  }
+  const std::size_t missing = places.back() + 1 - places.size();
+  if (missing == 0)
+  {
+    return {};
+  }
+  const std::string description = Count(missing, "slice is", "slices are") + " missing by the numbers in their names";
+  const auto gap = std::adjacent_find(places.begin(), places.end(), [](auto a, auto b) { return b > a + 1; });
+  const auto before = pictures.begin() + (gap - places.begin());
+  FailIf(options.onGap == ScanReadOptions::Policy::Refuse,
+         FailureKind::Geometry,
+         "The pictures in " + folder.string() + " make no regular volume: " + description + ", the first between " +
+           before[0].filename().string() + " and " + before[1].filename().string() +
+           "; find the missing files, rename the others if none is missing, or take values across the gap with "
+           "ScanReadOptions::onGap.");
+  notes.push_back("Values are interpolated where pictures are missing: " + description + ".");
+  return places;
+}
+
 /** What the header of a picture tells. */
 struct PictureHeader
 {
@@ -408,8 +509,18 @@ OpenPictureStack(const std::vector<fs::path> & pictures, const fs::path & path, 
   const PictureStack stack(pictures, first, type);
   UnreadScan file;
   Scan & scan = file.scan;
-  const VolumeGeometry geometry = MakeUnplacedGeometry({ { first.width, first.height, stack.GetDepth() } },
-                                                       FindVoxelSize(first, path, options, scan));
+  std::array<double, 3> voxelSize = FindVoxelSize(first, path, options, scan);
+  const auto places =
+    pictures.size() > 1 ? AcceptGaps(pictures, path, options, scan.notes) : std::vector<std::size_t>();
+  for (const std::size_t place : places)
+  {
+    scan.sliceOrigins.emplace_back(std::array<double, 3>{ 0.0, 0.0, static_cast<double>(place) * voxelSize[2] });
+  }
+  if (!places.empty())
+  {
+    voxelSize[2] *= static_cast<double>(places.back()) / static_cast<double>(places.size() - 1);
+  }
+  const VolumeGeometry geometry = MakeUnplacedGeometry({ { first.width, first.height, stack.GetDepth() } }, voxelSize);
   CheckGeometry(geometry, path, "voxel size", options.onTilted, scan.notes);
   scan.format = "pictures";
   scan.encoding = PictureFormatOf(pictures.front());
