@@ -9,7 +9,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <numeric>
+
+#include <unistd.h>
 
 namespace fs = std::filesystem;
 
@@ -869,6 +872,18 @@ TEST_F(DicomFolder, SingleFilesAreNoVolumes)
   EXPECT_EQ(KindOfReading(m_Folder / "image0.dcm", "image0.dcm"), FailureKind::Geometry);
   std::ofstream(m_Folder / "text.dcm") << "To whom it may concern";
   EXPECT_EQ(KindOfReading(m_Folder / "text.dcm", "text.dcm"), FailureKind::Unreadable);
+}
+
+TEST_F(DicomFolder, ClosedFoldersAreNotToldAsMissing)
+{
+  std::ofstream(m_Folder / "scan.nii") << "scan";
+  fs::permissions(m_Folder, fs::perms(0444));
+  const uid_t user = geteuid();
+  ASSERT_EQ(seteuid(user == 0 ? 65534 : user), 0); // root may enter all
+  const auto kind = KindOfReading(m_Folder / "scan.nii", "Permission denied");
+  ASSERT_EQ(seteuid(user), 0);
+  fs::permissions(m_Folder, fs::perms::owner_all);
+  EXPECT_EQ(kind, FailureKind::Unreadable);
 }
 
 TEST_F(DicomFolder, FoldersWithoutDicom)

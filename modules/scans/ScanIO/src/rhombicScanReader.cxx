@@ -128,13 +128,10 @@ IsFolder(const fs::path & path)
 {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status))
-  {
-    throw Failure(FailureKind::NotFound,
-                  "Cannot read " + path.string() + ": " +
-                    (fs::status_known(status) ? "there is no such file or folder; check the spelling."
-                                              : error.message() + "; check the path."));
-  }
+  FailIf(status.type() == fs::file_type::not_found,
+         FailureKind::NotFound,
+         "Cannot read " + path.string() + ": there is no such file or folder; check the spelling.");
+  RefuseVolumeIf(!fs::exists(status), path, error.message() + "; check the path, and who may enter its folders");
   if (!fs::is_directory(status) && !fs::is_regular_file(status))
   {
     RefuseOther(path, "it is a device or pipe; give a file or folder");
