@@ -273,8 +273,7 @@ AddBatchCommand(CommandSettings & command)
     { "COLLECTION",
       &BatchOptions::collection,
       "a folder of scans, in which every series and volume is a case; a BIDS dataset; or a manifest (.tsv) with "
-      "columns "
-      "case, scan, labels, reference, options" },
+      "columns case, scan, labels, reference, options" },
     { "-o,--output", &BatchOptions::output, "the folder of all outputs: new, empty, or to go on with" },
   };
   static const SettingsTable<BatchOptions> choice{
@@ -289,8 +288,7 @@ AddBatchCommand(CommandSettings & command)
     { "--stats",
       &BatchOptions::writesStatistics,
       "run nothing; print and write what the measures of all cases are together (OUT/statistics.tsv), and which cases "
-      "lie "
-      "apart; needs no COLLECTION" },
+      "lie apart; needs no COLLECTION" },
     { "--names-from-paths",
       &BatchOptions::namesFromPaths,
       "name cases by their paths in the folder, if these name no patients (default: by a hash)" },

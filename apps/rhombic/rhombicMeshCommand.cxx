@@ -142,8 +142,7 @@ AddMeshCommand(CommandSettings & command)
     { "--max-triangles",
       &MeshOptions::maximumTriangles,
       "simplify to so many triangles, or to a share, as 10%, within --max-error or a lattice spacing; the number is "
-      "for "
-      "each isosurface, and for all labels together" },
+      "for each isosurface, and for all labels together" },
     { "--measures",
       &MeshOptions::measures,
       "volumes, areas and other measures as a table: .csv or .json",

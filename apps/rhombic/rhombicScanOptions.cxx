@@ -122,8 +122,7 @@ ScanOptions::SourceTable()
     { "SCAN",
       &ScanOptions::scan,
       "DICOM folder, NIfTI, NRRD or MetaImage file, OME-Zarr folder, folder of masks or of pictures, or a lattice "
-      "volume "
-      "(.fcc.nrrd)",
+      "volume (.fcc.nrrd)",
       OfKind(SettingKind::Source) },
     { "--series",
       &ScanOptions::series,

@@ -42,7 +42,19 @@ struct SettingRow
 /** What a row of a table of settings says beyond name, member and help text: one of those that follow. */
 using SettingTrait = std::function<void(SettingRow &)>;
 
-inline const auto InBytes = [](SettingRow & row) { row.option->transform(CLI::AsSizeValue(false)); }; ///< or as 8G
+inline const auto InBytes = [](SettingRow & row) { ///< or as 8G
+  row.option->transform(CLI::AsSizeValue(false).operation([size = CLI::AsSizeValue(false)](std::string & text) {
+    const std::string given = text;
+    try
+    {
+      return given.find('-') == std::string::npos ? size(text) : throw CLI::ValidationError(given);
+    }
+    catch (const CLI::ValidationError &)
+    {
+      return "'" + given + "' is no size from 0 on, as 8G or 500M";
+    }
+  }));
+};
 inline const auto SplitAtCommas = [](SettingRow & row) { row.option->delimiter(','); };            ///< "--option A,B"
 inline const auto SeveralBehindOneName = [](SettingRow & row) { row.option->allow_extra_args(); }; ///< "--option A B"
 inline const auto ShowingDefault = [](SettingRow & row) { row.option->capture_default_str(); };    ///< in the help text

@@ -12,8 +12,7 @@ SurfaceOptions::Table()
     { "--preset",
       &SurfaceOptions::preset,
       "surfaces by a preset's name, or by a .yaml file like those of the project; auto chooses one by what the scan "
-      "says "
-      "and by its values",
+      "says and by its values",
       OfKind(SettingKind::InputFile) },
     { "--surface",
       &SurfaceOptions::surfaces,
@@ -22,14 +21,12 @@ SurfaceOptions::Table()
     { "--labels",
       &SurfaceOptions::labels,
       "the surfaces of the scan's label map: NIfTI, NRRD, MetaImage or DICOM SEG, or a folder of masks (not needed "
-      "when "
-      "SCAN itself is one); repeatable, for several that are one segmentation",
+      "when SCAN itself is one); repeatable, for several that are one segmentation",
       OfKind(SettingKind::Source) },
     { "--probabilities",
       &SurfaceOptions::probabilities,
       "in place of --labels: a volume of probabilities of each label, or one file of several volumes; labels meet "
-      "where "
-      "they are equally probable; repeatable",
+      "where they are equally probable; repeatable",
       Excludes({ "--labels" }),
       OfKind(SettingKind::Source) },
     { "--label-table",
@@ -60,8 +57,7 @@ SurfaceOptions::Table()
     { "--colours",
       &SurfaceOptions::labelColours,
       "colours of labels: anatomy (for names that are known), file (those of the label table) or safe (for "
-      "colour-blind "
-      "people)",
+      "colour-blind people)",
       ShowingDefault },
     { "--remove-table",
       &SurfaceOptions::removesTable,
@@ -198,8 +194,7 @@ GetColourByHelp()
          "value of another volume there; a PET is in SUV, if DICOM says all that it needs), PET.nii.gz,max:5mm or "
          ",mean:5mm "
          "(of what lies so deep inwards), distance:OTHER.stl or distance:LABELS.nii.gz (signed distance to the surface "
-         "of "
-         "the same name, or to the only one), thickness (largest ball inside), curvature or curvature:3mm (mean "
+         "of the same name, or to the only one), thickness (largest ball inside), curvature or curvature:3mm (mean "
          "curvature "
          "over so many mm); and perhaps the range and the map: pet.nii.gz,0,7,inferno (viridis, inferno, diverging)";
 }

@@ -77,7 +77,7 @@ public:
     RequireMemory(bytes,
                   m_Viewing->maximumMemory,
                   "A part of the surfaces, in the triangles that a picture of this size needs,",
-                  "choose a smaller --size, or a coarser lattice with --density");
+                  "choose a smaller --size, or a coarser lattice with a smaller --density");
   }
 
   std::map<std::size_t, FewerTrianglesInParts> m_Surfaces; ///< by their numbers in the pass

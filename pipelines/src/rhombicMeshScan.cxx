@@ -440,7 +440,7 @@ CheckMesh(MeshEstimate & mesh, const MeshScanSettings & settings)
   {
     const double share = static_cast<double>(allowed) / static_cast<double>(mesh.bytes.afterwards);
     RequireMemory(mesh.bytes.afterwards,
-                  allowed,
+                  lattice.maximumMemory > 0 ? lattice.maximumMemory : allowed,
                   "Making surfaces of " + DescribeTriangles(mesh.triangles),
                   AdviseCoarser(lattice, share));
   }

@@ -89,7 +89,7 @@ PlanSlabs(itk::FCCImage<TPixel> & smoothed,
     RequireMemory(least + plane + besideSlab,
                   settings.maximumMemory,
                   "A slab of the lattice with its surfaces",
-                  "use a coarser lattice with --density");
+                  "use a coarser lattice with a smaller --density");
   }
   const std::uintmax_t planes = allowed > least + besideSlab ? (allowed - least - besideSlab) / plane : 0;
   plan.planesOfSlab = std::min<itk::SizeValueType>(planes, region.GetSize(2));

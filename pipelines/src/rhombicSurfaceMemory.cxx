@@ -147,12 +147,13 @@ std::uintmax_t
 FitDrawn(MeshEstimate & mesh, const SurfaceWork & work, const CountDrawing & countDrawing)
 {
   FitIntoMemory(mesh, work);
-  if (work.source.lattice.denoising.kind == Denoising::Kind::None)
+  const std::uintmax_t allowed = AllowedBytes(work.source);
+  if (work.source.lattice.denoising.kind == Denoising::Kind::None && mesh.bytes.afterwards > allowed)
   {
     RequireMemory(mesh.bytes.afterwards,
-                  AllowedBytes(work.source),
+                  work.source.lattice.maximumMemory > 0 ? work.source.lattice.maximumMemory : allowed,
                   "Drawing surfaces of " + DescribeTriangles(mesh.triangles),
-                  "use a coarser lattice with --density, another threshold or a part of the scan");
+                  "use a coarser lattice with a smaller --density, another threshold or a part of the scan");
   }
   constexpr double atLeast = 0.85; // of the estimate, which gyroids are below
   const bool areReduced = mesh.kept < mesh.triangles;

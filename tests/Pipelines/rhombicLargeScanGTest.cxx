@@ -802,6 +802,9 @@ TEST_F(LargeScan, MeshesBeyondTheMemoryAreRefusedBeforeWorkThatNeedsThemThere)
   EXPECT_NE(sentence.find("use a coarser lattice with --density 0.0"), std::string::npos) << sentence;
   EXPECT_EQ(rhombictest::MemoryRefusal(mesh), sentence);
   EXPECT_FALSE(fs::exists(settings.mesh));
+  settings.source = this->SourceOf(path, 3'000'000);
+  EXPECT_NE(rhombictest::MemoryRefusal(plan).find("more than the 2.9 MiB that are allowed"), std::string::npos);
+  settings.source = this->SourceOf(path, 10'000'000);
   settings.source.lattice.denoising = { rhombic::Denoising::Kind::Gaussian, 1.5, 0.0 };
   EXPECT_EQ(rhombictest::MemoryRefusal(mesh), "no exception"); // of which little is left
   settings.source = this->SourceOf(path, Plenty);

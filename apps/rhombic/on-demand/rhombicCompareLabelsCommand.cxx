@@ -227,8 +227,7 @@ MeasureTable()
     { "--transform",
       &Options::transform,
       "a rigid or affine transform of ITK in text (.tfm) that maps points of A's space to B's, as a registration "
-      "writes "
-      "it with A fixed",
+      "writes it with A fixed",
       OfKind(SettingKind::Source) },
     { "--transform-inverse",
       &Options::isTransformInverted,
@@ -237,8 +236,7 @@ MeasureTable()
     { "--dates",
       &Options::dates,
       "dates of A and of B, as 2025-01-03,2026-01-10: the table has the growth of each label in ml a year, and the "
-      "days "
-      "in which it doubles",
+      "days in which it doubles",
       OfKind(SettingKind::Source),
       SplitAtCommas },
     { "--parts",

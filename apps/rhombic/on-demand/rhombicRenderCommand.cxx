@@ -593,8 +593,7 @@ PictureTable()
     { "--view",
       &RenderOptions::views,
       "anterior (default), posterior, left, right, superior, inferior or all; or azimuth,elevation in degrees, as "
-      "30,15: "
-      "from the front towards the patient's left, and up; repeatable" },
+      "30,15: from the front towards the patient's left, and up; repeatable" },
     { "--slice",
       &RenderOptions::slices,
       "a slice with the surfaces' outlines: axial, coronal or sagittal, and where: =12.5 (LPS mm), =#40 (of the scan), "
@@ -675,8 +674,7 @@ FitTable()
     { "--cut",
       &RenderOptions::cuts,
       "remove what lies above (axial), in front (coronal) or left of a plane (sagittal), named as for --slice, or "
-      "x>12, "
-      "y<0, z>100 in LPS mm; cut faces show the scan; repeatable" },
+      "x>12, y<0, z>100 in LPS mm; cut faces show the scan; repeatable" },
     { "--uncut",
       &RenderOptions::uncut,
       "surfaces that are not cut, by name as --only",

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <memory_resource>
@@ -142,6 +143,11 @@ TEST(BulkMemory, FoldersWithoutRoomAreRefusedInWords)
   EXPECT_EQ(sentenceOf(folder.Path() / "none", Size),
             begin + (folder.Path() / "none").string() +
               " (which is not there); name a folder on a disk with more room by temporaryFolder = FOLDER.");
+  const char * const named = std::getenv("TMPDIR");
+  const std::string before = named != nullptr ? named : "";
+  setenv("TMPDIR", "/none", 1);
+  EXPECT_NE(sentenceOf({}, Size).find("files in /none (which is not there)"), std::string::npos);
+  setenv("TMPDIR", before.c_str(), 1);
   EXPECT_NE(sentenceOf("/dev/shm", Size).find("(it is in memory itself)"), std::string::npos);
   if (rhombic::FindObstacle({ folder.Path(), {} }, Size).empty())
   {

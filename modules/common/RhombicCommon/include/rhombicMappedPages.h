@@ -69,7 +69,7 @@ struct TemporaryStore
   std::filesystem::path folder; ///< empty: the one that TMPDIR names, else /tmp
   std::string what;             ///< begins the sentence of a failure: "Cannot read a.nii: its voxels"
 
-  /** The folder; empty if there is none. */
+  /** The folder, which may not be there. */
   std::filesystem::path
   FindFolder() const;
 };

@@ -29,12 +29,11 @@ constexpr char NoAddresses[] = "a limit of the address space, as ulimit -v, forb
 [[noreturn]] void
 Refuse(const TemporaryStore & store, const std::string & why)
 {
-  const std::string folder = store.FindFolder().string();
-  throw Failure(
-    FailureKind::Memory,
-    store.what + " are too large for the memory that is allowed, and can't be put into temporary files in " +
-      (folder.empty() ? "a folder" : folder) + " (" + why + "); name a folder on a disk with more room by " +
-      (store.folder.empty() ? "TMPDIR, or by " : "") + "temporaryFolder = FOLDER.");
+  throw Failure(FailureKind::Memory,
+                store.what +
+                  " are too large for the memory that is allowed, and can't be put into temporary files in " +
+                  store.FindFolder().string() + " (" + why + "); name a folder on a disk with more room by " +
+                  (store.folder.empty() ? "TMPDIR, or by " : "") + "temporaryFolder = FOLDER.");
 }
 
 /** Opens a new file without a name; where the file system makes none, its name is removed at once. Below 0 where that
@@ -151,9 +150,8 @@ MappedPages::FindUnchanged() const
 fs::path
 TemporaryStore::FindFolder() const
 {
-  std::error_code error;
-  const fs::path found = folder.empty() ? fs::temp_directory_path(error) : folder;
-  return error ? fs::path() : found;
+  const char * const named = std::getenv("TMPDIR");
+  return !folder.empty() ? folder : named != nullptr && *named != '\0' ? named : "/tmp";
 }
 
 std::string
@@ -162,7 +160,7 @@ FindObstacle(const TemporaryStore & store, std::uintmax_t size)
   const fs::path folder = store.FindFolder();
   struct statfs system
   {};
-  if (folder.empty() || statfs(folder.c_str(), &system) != 0)
+  if (statfs(folder.c_str(), &system) != 0)
   {
     return "which is not there";
   }

@@ -250,7 +250,7 @@ StageFCCImage(const FCCVolume & volume, const fs::path & path, StagedFiles & sta
                      static_cast<std::streamsize>((end - begin) * bytesOfPlane));
       });
       stream.close();
-      FailToWriteIf(!stream, path, "writing failed; is the disk full?");
+      FailToWriteIf(!stream, path, "writing failed, as on a full disk; make room there");
       size = header.size() + bytes;
     },
     volume);
