@@ -12,6 +12,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -108,6 +109,37 @@ TEST(AtomicFile, RefusesAFileThatIsTooShort)
   }
   EXPECT_EQ(Read(target), "old");
   EXPECT_EQ(FilesIn(folder.Path()), 1u);
+}
+
+TEST(AtomicFile, TooManyOpenFilesAreNotToldAsAFullDisk)
+{
+  const rhombictest::TemporaryFolder folder;
+  AtomicFile file(folder.Path() / "a.txt");
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
+  const auto refusal = [&before](const auto & work) {
+    const rlimit none{ 0, before.rlim_max };
+    std::string sentence;
+    setrlimit(RLIMIT_NOFILE, &none);
+    try
+    {
+      work();
+    }
+    catch (const Failure & failure)
+    {
+      sentence = std::to_string(static_cast<int>(failure.GetKind())) + " " + failure.GetDescription();
+    }
+    setrlimit(RLIMIT_NOFILE, &before);
+    return sentence;
+  };
+  const std::string begin = "9 Cannot write " + folder.Path().string(),
+                    end = ".txt: too many files are open; allow more by ulimit -n.";
+  EXPECT_EQ(refusal([&] {
+              Write(file.GetTemporaryPath(), "text"); // opens no file, and does not tell
+              file.Flush(4);
+            }),
+            begin + "/a" + end);
+  EXPECT_EQ(refusal([&] { AtomicFile(folder.Path() / "b.txt"); }), begin + "/b" + end);
 }
 
 TEST(AtomicFile, RefusesTargetsThatCannotBe)

@@ -24,7 +24,7 @@ namespace rhombic
 class AtomicFile
 {
 public:
-  /** Throws Failure(Output) when the target's folder is missing or can't be written, or the target is a folder. */
+  /** Throws Failure(Output) when the folder is missing or can't be written, or the target is one; Memory as Flush(). */
   explicit AtomicFile(const std::filesystem::path & target);
   ~AtomicFile();
 
@@ -40,7 +40,7 @@ public:
 
   /** Checks the file's size and flushes it to the disk; only the renaming remains. \a minimumSize is the smallest size
    * in bytes that a complete file has: libraries' writers may report success on a full disk. Throws Failure(Output)
-   * when the file is smaller or can't be flushed. */
+   * when the file is smaller or can't be flushed; Failure(Memory) when too many files are open. */
   void
   Flush(std::uintmax_t minimumSize);
 

@@ -22,9 +22,11 @@ namespace
 {
 
 [[noreturn]] void
-Fail(const fs::path & path, const std::string & why)
+Fail(const fs::path & path, const std::string & why, int error = 0) // errno, where it is known
 {
-  throw Failure(FailureKind::Output, "Cannot write " + path.string() + ": " + why + ".");
+  const std::string lack = error == EMFILE || error == ENFILE ? "too many files are open; allow more by ulimit -n" : "";
+  throw Failure(lack.empty() ? FailureKind::Output : FailureKind::Memory,
+                "Cannot write " + path.string() + ": " + (lack.empty() ? why : lack) + ".");
 }
 
 /** Flushes a file or folder to the disk. Some file systems can't flush folders (EINVAL); that is no loss of data. */
@@ -201,7 +203,7 @@ AtomicFile::AtomicFile(const fs::path & target)
   } while (m_Descriptor < 0 && errno == EEXIST);
   if (m_Descriptor < 0)
   {
-    Fail(target, std::string(std::strerror(errno)) + "; choose another folder or file name");
+    Fail(target, std::string(std::strerror(errno)) + "; choose another folder or file name", errno);
   }
   ReplaceListed(nullptr, m_Temporary.c_str());
 }
@@ -220,17 +222,17 @@ AtomicFile::~AtomicFile()
 void
 AtomicFile::Flush(std::uintmax_t minimumSize)
 {
+  if (!FlushToDisk(m_Temporary, O_WRONLY)) // fails as writers did that found too many files open
+  {
+    Fail(m_Target, std::string(std::strerror(errno)) + " while flushing it to the disk", errno);
+  }
   std::error_code error;
   const auto size = fs::file_size(m_Temporary, error);
   if (error || size < minimumSize)
   {
     Fail(m_Target,
          "only " + std::to_string(error ? 0 : size) + " of at least " + std::to_string(minimumSize) +
-           " bytes arrived; is the disk full?");
-  }
-  if (!FlushToDisk(m_Temporary, O_WRONLY))
-  {
-    Fail(m_Target, std::string(std::strerror(errno)) + " while flushing it to the disk");
+           " bytes arrived, as on a full disk; make room there");
   }
 }
 

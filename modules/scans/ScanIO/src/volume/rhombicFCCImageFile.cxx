@@ -250,7 +250,6 @@ StageFCCImage(const FCCVolume & volume, const fs::path & path, StagedFiles & sta
                      static_cast<std::streamsize>((end - begin) * bytesOfPlane));
       });
       stream.close();
-      FailToWriteIf(!stream, path, "writing failed, as on a full disk; make room there");
       size = header.size() + bytes;
     },
     volume);
