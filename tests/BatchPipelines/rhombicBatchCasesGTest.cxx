@@ -270,7 +270,7 @@ TEST(BatchCases, AClosedFolderInACollectionIsRefusedAndNotLeftOut)
                                        closed.string() + (mode == fs::perms::none ? ":" : "/"));
         EXPECT_EQ(outcome, std::pair(FailureKind::Unreadable, true)) << closed;
         EXPECT_EQ(FailureOf([&] { rhombic::IsBIDS(closed / "in"); }, "Permission denied"),
-                  std::pair(FailureKind::NotFound, true));
+                  std::pair(FailureKind::Unreadable, true));
       }
       fs::permissions(closed, fs::perms::owner_all);
     }
@@ -310,7 +310,7 @@ TEST(BatchCases, CollectionsThatTheSystemRefusesToLookForAreFailures)
   for (const std::string & name : { std::string("loop"), std::string(300, 'x') })
   {
     const fs::path path = folder.Path() / name;
-    const std::pair expected(FailureKind::NotFound, true);
+    const std::pair expected(FailureKind::Unreadable, true);
     EXPECT_EQ(FailureOf([&] { rhombic::FindCases(path); }, name), expected);
     EXPECT_EQ(FailureOf([&] { rhombic::IsBIDS(path); }, name), expected);
   }

@@ -161,7 +161,8 @@ ReadVoxels(const UnreadScan & file);
 SeriesList
 ListSeries(const std::filesystem::path & path, const ScanReadOptions & options = {});
 
-/** Whether a path is a folder and not a file. Throws Failure: NotFound, Unreadable (a device or pipe). */
+/** Whether a path is a folder and not a file. Throws Failure: NotFound; Unreadable (a device
+ * or pipe, or in a folder that may not be entered). */
 bool
 IsFolder(const std::filesystem::path & path);
 
