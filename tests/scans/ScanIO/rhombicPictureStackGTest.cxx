@@ -212,8 +212,8 @@ TEST_F(PictureStack, IsRefusedIfASliceIsMissing)
     { { "slice_8_of_12.tif", "slice_9_of_12.tif", "slice_10_of_12.tif", "slice_12_of_12.tif" }, "between slice_10_of" },
     { { "scan-2024-01_z005.bmp", "scan-2024-02_z010.bmp", "scan-2024-03_z015.bmp", "scan-2024-05_z025.bmp" },
       "between scan-2024-03" },
-    { { "1.tif", "2.tif", "02.tif" }, "same number as 02.tif" },
-    { { "1.tif", "1.tiff" }, "same number as 1.tif" },
+    { { "1.tif", "2.tif", "02.tif" }, "differs from 02.tif by zeros" },
+    { { "1.tif", "1.tiff" }, "differs from 1.tif by zeros" },
   };
   for (const auto & [names, sentence] : refused)
   {
@@ -227,6 +227,11 @@ TEST_F(PictureStack, IsRefusedIfASliceIsMissing)
          { { "a.tif", "b.tif", "c.tif" }, false },
          { { "1.tif", "2.tif", "3.tif", "5 (copy).tif" }, false },
          { { "0.5.tif", "1.0.tif", "1.5.tif", "2.0.tif" }, false },
+         { { "1.25.tif", "2.50.tif", "3.75.tif", "5.00.tif", "6.25.tif", "7.50.tif" }, false },
+         { { "1.05.tif", "1.5.tif", "2.tif" }, false },
+         { { "t_120057.tif", "t_120058.tif", "t_120059.tif", "t_120100.tif" }, false },
+         { { "#1.tif", "1#.tif" }, false },
+         { { "#12a3.tif", "5#a#.tif" }, false },
          { { "20240101115958.tif", "20240101115959.tif", "20240101120000.tif" }, false },
          { { "7.tif", "10.tif", "12.tif", "14.tif", "16.tif" }, false } })
   {

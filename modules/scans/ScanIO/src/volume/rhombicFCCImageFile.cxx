@@ -235,6 +235,7 @@ StageFCCImage(const FCCVolume & volume, const fs::path & path, StagedFiles & sta
   std::visit([&path](const auto & image) { VerifyImage(image.GetPointer(), path); }, volume);
   AtomicFile & file = staged.Begin(path);
   std::size_t size = 0;
+  bool isWritten = false;
   std::visit(
     [&](const auto & image) {
       using PixelType = typename std::decay_t<decltype(*image)>::PixelType;
@@ -250,10 +251,12 @@ StageFCCImage(const FCCVolume & volume, const fs::path & path, StagedFiles & sta
                      static_cast<std::streamsize>((end - begin) * bytesOfPlane));
       });
       stream.close();
+      isWritten = !stream.fail();
       size = header.size() + bytes;
     },
     volume);
   file.Flush(size);
+  FailToWriteIf(!isWritten, path, "not all bytes arrived");
 }
 
 void

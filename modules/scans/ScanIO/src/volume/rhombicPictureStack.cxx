@@ -82,7 +82,7 @@ ComesBefore(const std::string & a, const std::string & b)
   return aEnds != bEnds ? aEnds : a < b; // of names that differ by zeros only, the first in the alphabet
 }
 
-/** A picture's name with # for each number, without extension, and the numbers. */
+/** A picture's name with / for each number, as no name has it, without extension, and the numbers. */
 std::pair<std::string, std::vector<std::uint64_t>>
 SplitName(const fs::path & picture)
 {
@@ -93,7 +93,7 @@ SplitName(const fs::path & picture)
     const bool isDigit = letter >= '0' && letter <= '9';
     if (!isDigit || !wasDigit)
     {
-      name.first += isDigit ? '#' : letter;
+      name.first += isDigit ? '/' : letter;
     }
     if (isDigit && !wasDigit)
     {
@@ -108,22 +108,27 @@ SplitName(const fs::path & picture)
   return name;
 }
 
-/** The places of slices, in steps from the first, by the numbers in their names: 0, 1, 3, ... Empty where no number
- * rises by one step at most places and by multiples of it elsewhere, as times do not. Throws Failure for pictures of
- * the same numbers. */
+/** The places of slices, in steps from the first, by the numbers in their names: 0, 1, 3, ... Empty where names differ
+ * by more than numbers, where no number rises by one step at most places and by multiples of it elsewhere, and of
+ * decimals, dates and times. Throws Failure for pictures of the same numbers. */
 std::vector<std::size_t>
 FindPlaces(const std::vector<fs::path> & pictures)
 {
-  constexpr std::uint64_t largest = 1000000000; // dates and times are larger
+  constexpr std::uint64_t largest = 100'000; // dates and most times are larger
   std::map<std::pair<std::string, std::vector<std::uint64_t>>, fs::path> names;
   std::vector<std::vector<std::uint64_t>> numbers;
   for (const fs::path & picture : pictures)
   {
     const auto [other, isNew] = names.emplace(SplitName(picture), picture);
+    if (other->first.first.find("/./") != std::string::npos)
+    {
+      return {};
+    }
     RefuseGeometryIf(!isNew,
                      picture,
-                     "its name has the same number as " + other->second.filename().string() +
-                       ", and a slice of a stack has one picture; move one of them to another folder");
+                     "its name differs from " + other->second.filename().string() +
+                       " by zeros or the extension only, and a slice of a stack has one picture; move one of them to "
+                       "another folder");
     numbers.push_back(other->first.second);
   }
   std::vector<std::size_t> places;
@@ -161,8 +166,8 @@ AcceptGaps(const std::vector<fs::path> & pictures,
   const std::vector<std::size_t> places = FindPlaces(pictures);
   if (places.empty())
   {
-    notes.push_back("Whether slices are missing can't be told, as no number in the names of the pictures rises by one "
-                    "step.");
+    notes.push_back("Whether slices are missing can't be told by the names of the pictures, in which no number alone "
+                    "changes, by one step.");
     return {};
   }
   const std::size_t missing = places.back() + 1 - places.size();
