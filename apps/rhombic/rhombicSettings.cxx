@@ -226,21 +226,25 @@ CommandSettings::Set(const Report & settings)
 void
 CommandSettings::SetRecorded(Report settings)
 {
+  const auto isGiven = [this](const std::string & name) { return m_Parser.get_option(name)->count() > 0; };
   for (const SettingRow & row : m_Rows)
   {
-    if (row.kind != SettingKind::Source || !settings.contains(row.key))
+    if (row.kind != SettingKind::Source || settings.erase(row.key) == 0)
     {
       continue;
     }
-    const std::size_t recorded = ToTexts(settings[row.key]).size();
-    if (row.option->count() < recorded)
+    const std::string name = "--" + row.key;
+    const bool isReplaced =
+      std::any_of(row.excludes.begin(), row.excludes.end(), isGiven) ||
+      std::any_of(m_Rows.begin(), m_Rows.end(), [&name](const SettingRow & other) {
+        return other.option->count() > 0 && std::count(other.excludes.begin(), other.excludes.end(), name) > 0;
+      });
+    const bool tellsWhatIsDrawn = !row.option->get_lnames().empty() && row.key != "series";
+    if (tellsWhatIsDrawn && row.option->count() == 0 && !isReplaced)
     {
-      const std::string name = row.option->get_lnames().empty() ? row.option->get_name() : "--" + row.key;
-      const std::string all = recorded > 1 ? std::to_string(recorded) + " " + name : name;
       throw Failure(FailureKind::Usage,
-                    "The report was made with " + all + ", of which it holds no names; give " + all + " again.");
+                    "The report was made with " + name + ", of which it holds no names; give " + name + " again.");
     }
-    settings.erase(row.key);
   }
   this->Set(settings);
 }

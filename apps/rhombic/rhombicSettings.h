@@ -201,7 +201,7 @@ public:
   Set(const Report & settings);
 
   /** As Set(), of what GetRecorded() gave, but for scans, series and label maps, of which reports hold no names. Throws
-   * Failure(Usage) where fewer of these are given than were recorded. */
+   * Failure(Usage) where recorded label maps, or what colours come from, are not given. */
   void
   SetRecorded(Report settings);
 

@@ -308,6 +308,8 @@ TEST_F(RenderCommand, AReportOfLabelsMakesItsPictureAgainOnlyWithLabels)
   EXPECT_NE(refused.errors.find("give --labels again"), std::string::npos) << refused.errors;
   RunWell("render " + phantomScan + labels + " --from first.png.json -o second.png");
   EXPECT_EQ(Bytes("first.png"), Bytes("second.png"));
+  RunWell("render " RHOMBIC_TESTDATA "/phantom/dicom --series 1 --surface s=375.5 --size 150 -o series.png");
+  RunWell("render " + phantomScan + " --from series.png.json -o third.png"); // which has no series
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // which keep memory for themselves
