@@ -277,6 +277,39 @@ TEST(BatchCases, AClosedFolderInACollectionIsRefusedAndNotLeftOut)
   }
 }
 
+TEST(BatchCases, ClosedFoldersOfADatasetWithoutChosenCasesAreNoMatter)
+{
+  const TemporaryFolder folder;
+  fs::permissions(folder.Path(), fs::perms(0755));
+  for (const char * const name : { "dataset_description.json",
+                                   "sub-01/anat/sub-01_T1w.nii",
+                                   "sub-02/anat/sub-02_T1w.nii",
+                                   "sourcedata/sub-01/a.dcm" })
+  {
+    WriteFile(folder.Path() / name, "x");
+  }
+  fs::permissions(folder.Path() / "sourcedata", fs::perms::none);
+  fs::permissions(folder.Path() / "sub-02", fs::perms::none);
+  {
+    const rhombictest::Nobody nobody;
+    if (!nobody.IsBound() || !std::ifstream(folder.Path() / "dataset_description.json"))
+    {
+      GTEST_SKIP() << "this user can't be another one, or not in the folder of temporary files";
+    }
+    rhombic::CaseSearch search;
+    for (const char * const chosen : { "sub-01_*", "sub-01_T1w", "sub-02_*", "*" })
+    {
+      search.only = { chosen };
+      const FailureKind kind = FailureOf([&] { rhombic::FindCases(folder.Path(), search); }, "sub-02").first;
+      const bool isFirst = std::string(chosen).rfind("sub-01", 0) == 0;
+      EXPECT_EQ(kind, isFirst ? FailureKind() : FailureKind::Unreadable) << chosen;
+    }
+  }
+  fs::permissions(folder.Path() / "sub-02", fs::perms::owner_all);
+  fs::permissions(folder.Path() / "sourcedata", fs::perms::owner_all);
+  EXPECT_EQ(rhombic::FindCases(folder.Path()).cases.size(), 2u);
+}
+
 TEST(BatchCases, AFolderThatTheSystemDoesNotListIsRefused)
 {
   const TemporaryFolder folder;

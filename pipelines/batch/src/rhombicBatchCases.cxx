@@ -338,11 +338,36 @@ FindVolumes(const fs::path & folder, const std::string & name, const fs::path & 
   }
 }
 
+/** Whether a folder of a dataset may hold chosen cases, or their labels. */
+bool
+MayHoldCases(const std::string & folder, const std::vector<std::string> & only)
+{
+  const std::string begin = folder + '_'; // of names of cases
+  const bool isOther = !only.empty() && std::none_of(only.begin(), only.end(), [&begin](const std::string & name) {
+    const std::size_t known = std::min(name.find_first_of("*?["), std::min(name.size(), begin.size()));
+    return name.compare(0, known, begin, 0, known) == 0;
+  });
+  return folder != "sourcedata" && !(isOther && folder.rfind("sub-", 0) == 0);
+}
+
 CaseCollection
-FindInBIDS(const fs::path & root, const fs::path & excluded)
+FindInBIDS(const fs::path & root, const CaseSearch & search)
 {
   std::vector<fs::path> volumes;
-  FindVolumes(root, "anat", excluded, volumes);
+  for (const fs::path & folder : ListFolder(root, search.excluded).folders)
+  {
+    try
+    {
+      FindVolumes(folder, "anat", search.excluded, volumes);
+    }
+    catch (const Failure &)
+    {
+      if (MayHoldCases(folder.filename().string(), search.only))
+      {
+        throw;
+      }
+    }
+  }
   CaseCollection found;
   for (const fs::path & volume : volumes)
   {
@@ -560,7 +585,7 @@ FindCases(const fs::path & path, const CaseSearch & given)
   }
   else
   {
-    found = IsBIDS(collection) ? FindInBIDS(collection, search.excluded) : TreeSearch(collection, search).Run();
+    found = IsBIDS(collection) ? FindInBIDS(collection, search) : TreeSearch(collection, search).Run();
   }
   if (found.cases.empty())
   {
