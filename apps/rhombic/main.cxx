@@ -72,6 +72,8 @@ KeepFreedMemory()
 #endif
 }
 
+std::terminate_handler usualEnd = nullptr;
+
 /** Of a thread, or of a library that is being loaded. Without memory, none is taken to tell it. */
 [[noreturn]] void
 TellOfExceptionNobodyCaught()
@@ -91,6 +93,7 @@ TellOfExceptionNobodyCaught()
     catch (...)
     {}
   }
+  usualEnd();
   std::abort();
 }
 
@@ -208,7 +211,7 @@ main(int argc, char ** argv)
   RemoveTemporaryFilesOnSignals();
   RaiseFileLimit();
   KeepFreedMemory();
-  std::set_terminate(TellOfExceptionNobodyCaught);
+  usualEnd = std::set_terminate(TellOfExceptionNobodyCaught);
   Console console;
   CommandLine commandLine;
   const std::vector<std::string> words(argv + 1, argv + argc);

@@ -2,6 +2,7 @@
 #include "rhombicFailure.h"
 
 #include <dlfcn.h>
+#include <sys/resource.h>
 
 #include <string>
 
@@ -16,7 +17,9 @@ FindInLibrary(const char * library, const char * function, const char * purpose)
   if (!found)
   {
     const std::string why = dlerror();
-    const bool needsMemory = why.find("failed to map") != std::string::npos;
+    rlimit limit{};
+    const bool needsMemory = why.find("failed to map") != std::string::npos && getrlimit(RLIMIT_AS, &limit) == 0 &&
+                             limit.rlim_cur != RLIM_INFINITY;
     throw Failure(needsMemory ? FailureKind::Memory : FailureKind::Internal,
                   std::string("The part of rhombic that ") + purpose + " can't be loaded: " + why +
                     (needsMemory ? "; allow more memory, as by ulimit -v." : "; install rhombic again."));

@@ -111,10 +111,11 @@ BatchJournal::BatchJournal(const fs::path & folder, const std::vector<std::strin
   : m_Path(folder / journalFile)
 {
   std::error_code error;
-  if (fs::exists(folder, error) && !fs::exists(m_Path, error) && !fs::is_empty(folder, error))
+  std::error_code closed;
+  if (fs::exists(folder, error) && !fs::exists(m_Path, closed) && (closed || !fs::is_empty(folder, closed)))
   {
     const std::string why =
-      error ? "can't be looked into: " + error.message() : "holds something else than the outputs of a batch";
+      closed ? "can't be looked into: " + closed.message() : "holds something else than the outputs of a batch";
     throw Failure(FailureKind::Output, "The folder " + folder.string() + " " + why + "; name a new or empty one.");
   }
   fs::create_directories(folder, error);

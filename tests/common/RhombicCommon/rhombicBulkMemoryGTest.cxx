@@ -147,7 +147,7 @@ TEST(BulkMemory, FoldersWithoutRoomAreRefusedInWords)
   const std::string before = named != nullptr ? named : "";
   setenv("TMPDIR", "/none", 1);
   EXPECT_NE(sentenceOf({}, Size).find("files in /none (which is not there)"), std::string::npos);
-  setenv("TMPDIR", before.c_str(), 1);
+  named != nullptr ? setenv("TMPDIR", before.c_str(), 1) : unsetenv("TMPDIR");
   EXPECT_NE(sentenceOf("/dev/shm", Size).find("(it is in memory itself)"), std::string::npos);
   if (rhombic::FindObstacle({ folder.Path(), {} }, Size).empty())
   {

@@ -15,8 +15,8 @@
 namespace rhombic
 {
 
-/** Opens a file that is read in parts. The stream is not open where there is no such file. Throws Failure(Unreadable)
- * where it can't be opened. */
+/** Opens a file that is read in parts. The stream is not open where there is no such file. Throws Failure where
+ * it can't be opened: Memory when too many files are open, else Unreadable. */
 std::ifstream
 OpenIfThere(const std::filesystem::path & path);
 

@@ -101,7 +101,8 @@ OpenIfThere(const fs::path & path)
   std::ifstream stream(path, std::ios::binary);
   if (!stream.is_open() && errno != ENOENT)
   {
-    throw Failure(FailureKind::Unreadable, "Cannot read " + path.string() + ": " + std::strerror(errno) + ".");
+    throw Failure(errno == EMFILE || errno == ENFILE ? FailureKind::Memory : FailureKind::Unreadable,
+                  "Cannot read " + path.string() + ": " + std::strerror(errno) + ".");
   }
   return stream;
 }

@@ -150,8 +150,15 @@ MappedPages::FindUnchanged() const
 fs::path
 TemporaryStore::FindFolder() const
 {
-  const char * const named = std::getenv("TMPDIR");
-  return !folder.empty() ? folder : named != nullptr && *named != '\0' ? named : "/tmp";
+  for (const char * const variable : { "TMPDIR", "TMP", "TEMP", "TEMPDIR" })
+  {
+    const char * const named = std::getenv(variable);
+    if (folder.empty() && named != nullptr && *named != '\0')
+    {
+      return named;
+    }
+  }
+  return folder.empty() ? "/tmp" : folder;
 }
 
 std::string
@@ -162,7 +169,7 @@ FindObstacle(const TemporaryStore & store, std::uintmax_t size)
   {};
   if (statfs(folder.c_str(), &system) != 0)
   {
-    return "which is not there";
+    return errno == ENOENT ? "which is not there" : std::strerror(errno);
   }
   if (system.f_type == TMPFS_MAGIC || system.f_type == RAMFS_MAGIC)
   {

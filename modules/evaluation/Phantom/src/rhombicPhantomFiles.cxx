@@ -36,7 +36,7 @@ Fail(const fs::path & path, const std::string & why)
 
 constexpr char StagePrefix[] = ".phantom-"; // of hidden folders, then the number of the process
 
-/** Removes the hidden folders of processes that were killed. */
+/** Removes the hidden folders of processes that were killed, on this machine. */
 void
 RemoveAbandoned(const fs::path & folder)
 {
@@ -44,8 +44,10 @@ RemoveAbandoned(const fs::path & folder)
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
   {
     const std::string name = entry->path().filename().string();
-    const bool isStage = name.rfind(StagePrefix, 0) == 0;
-    if (isStage && kill(std::atoi(name.c_str() + std::strlen(StagePrefix)), 0) != 0 && errno == ESRCH)
+    const std::string number = name.rfind(StagePrefix, 0) == 0 ? name.substr(std::strlen(StagePrefix)) : "";
+    const bool isNumber = !number.empty() && number.size() < 10 &&
+                          std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
+    if (isNumber && kill(std::stoi(number), 0) != 0 && errno == ESRCH)
     {
       std::error_code ignored; // the folder is not empty then
       fs::remove_all(entry->path(), ignored);
