@@ -344,6 +344,8 @@ TEST_F(OMEZarr, ScalesBeyondAllNumbersAreRefused)
   OMEZarrTestFolder zarr;
   for (const char * const transformations :
        { R"([{"type": "scale", "scale": [1, 1, 1e200]}, {"type": "scale", "scale": [1, 1, 1e200]}])",
+         R"([{"type": "scale", "scale": [1, 1, 1e200]}])",
+         R"([{"type": "scale", "scale": [1, 1, 1e-200]}])",
          R"([{"type": "scale", "scale": [1, 1, 0]}])",
          R"([{"type": "scale", "scale": [1, 1, -1]}])",
          R"([{"type": "scale", "scale": [1, 1, 2]}, {"type": "translation", "translation": [0, 0, 1e308]},

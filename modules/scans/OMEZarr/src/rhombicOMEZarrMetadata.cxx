@@ -191,7 +191,8 @@ TakeUnits(const OMEZarrOptions & options, const fs::path & path, OMEZarrMetadata
                   "it tells no " + std::string(axis.step ? "unit" : "scale") + " of its axis " + name +
                     ", and so no size of its voxels; give it with OMEZarrOptions::voxelSize");
     }
-    if (axis.step && !(*axis.step > 0 && std::isfinite(*axis.step) && std::isfinite(axis.origin)))
+    constexpr double largest = 1e100; // whose square is a number, in any unit
+    if (axis.step && !(*axis.step >= 1.0 / largest && *axis.step <= largest && std::abs(axis.origin) <= largest))
     {
       RefusePlace(path,
                   "the scale of its axis " + name +
